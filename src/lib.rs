@@ -1,0 +1,50 @@
+//! # Sootlight
+//!
+//! Fire as physics makes it: soot that glows by Planck's law, absorbs and is carried per wavelength to an
+//! adapting eye. The library is the whole program; the binary only calls [`cli::run`].
+//!
+//! ## The house
+//!
+//! A floor has rooms; imports point strictly down, rooms on one floor are strangers to each other.
+//!
+//! ```text
+//! 10 main.rs      run, print the error chain, exit code
+//!  9 cli          flags → validated command: window | render | info
+//!  8 app          the window (feature `window`)
+//!  7 engine       background rendering for the window: submit(Job), drain() → tiles
+//!    export       PNG, EXR; provenance comes in as text; nothing half-written
+//!  6 project      all that a person can set: the scene file, --set, presets
+//!  5 render       THE CORE: plan, march, film, passes, develop. Headless, no clock, no global state
+//!  4 scene        Flame (volume + fuel + air), Camera, wavelength sets
+//!  3 volume       grids in memory and on disk, field mappings, the built-in flame
+//!  2 physics      laws: f64, SI, no grids, no pictures
+//!    colour       the standard observer, adaptation, display
+//!  1 spectral     wavelengths with weights
+//!    math         rays, boxes, lanes
+//! ```
+//!
+//! `tests/architecture.rs` holds the code to this picture.
+//!
+//! ## Words
+//!
+//! * **radiance** L, spectral: W m⁻² sr⁻¹ nm⁻¹. Wavelengths are vacuum wavelengths in nm.
+//! * **soot volume fraction** f_v: volume of soot per volume of gas, dimensionless, 1e-8 to 1e-5.
+//! * **absorption coefficient** σ_a, **emission coefficient** j = σ_a B(λ, T); **optical depth** τ = ∫ σ ds.
+//! * **XYZ**: Σ L x̄ Δλ with the CIE 1931 2° observer, W m⁻² sr⁻¹; luminance is 683 Y cd m⁻².
+//! * **medium**: the volume's fields mapped to physical units and packed for the march.
+//! * **film**: the only place where a spectrum becomes three numbers.
+//! * **flaw**: what could not be faithful, carried with the frame and told to the person.
+
+#[cfg(feature = "window")]
+pub mod app;
+pub mod cli;
+pub mod colour;
+pub mod engine;
+pub mod export;
+pub mod math;
+pub mod physics;
+pub mod project;
+pub mod render;
+pub mod scene;
+pub mod spectral;
+pub mod volume;

@@ -1,0 +1,3 @@
+//! The `sootlight` program.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Wavelengths with weights.
