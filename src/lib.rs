@@ -35,16 +35,5 @@
 //! * **film**: the only place where a spectrum becomes three numbers.
 //! * **flaw**: what could not be faithful, carried with the frame and told to the person.
 
-#[cfg(feature = "window")]
-pub mod app;
-pub mod cli;
-pub mod colour;
-pub mod engine;
-pub mod export;
 pub mod math;
-pub mod physics;
-pub mod project;
-pub mod render;
-pub mod scene;
 pub mod spectral;
-pub mod volume;
