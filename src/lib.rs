@@ -35,5 +35,7 @@
 //! * **film**: the only place where a spectrum becomes three numbers.
 //! * **flaw**: what could not be faithful, carried with the frame and told to the person.
 
+pub mod colour;
 pub mod math;
+pub mod physics;
 pub mod spectral;

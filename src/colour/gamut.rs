@@ -1,0 +1,120 @@
+//! Bringing a colour into the triangle of the display.
+//!
+//! ```text
+//! c⁺   = (c + √(c² + (ε·max(rgb))²))/2      for each channel c
+//! rgb' = rgb⁺ · Y/Y⁺
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | rgb, c | linear Rec. 709 light | 1 |
+//! | Y, Y⁺ | luminance of rgb and of rgb⁺ | 1 |
+//! | ε | softness; with 0, c⁺ is max(c, 0) | 1 |
+//!
+//! A negative channel is left out and the brightness kept. The colour goes to the nearest side of the triangle, so a deep
+//! red stays red; mixing with grey of the same luminance would lift its blue, and embers would turn pink. Black bodies
+//! below about 1900 K need this: a negative channel must never meet a power. Without softness the blue of a flame would
+//! set in at a line, which the eye finds; with it, c⁺ > 0 is smooth, keeps the order of the channels, and keeps grey grey.
+//!
+//! **Validity.** Finite light. A colour without luminance is no light: black.
+//!
+//! **Source.** Our own: the hyperbola is the smooth maximum of c and 0. The luminance weights are the middle row of the matrix to XYZ, see [`super::xyz`].
+
+/// Y of linear Rec. 709 light: the middle row of [`super::xyz::xyz_from_rgb`], rounded to f32.
+pub(super) const LUMINANCE: [f32; 3] = [0.212_639_01, 0.715_168_65, 0.072_192_32];
+
+/// The colour without negative channels, of the same luminance (see the page above).
+pub(super) fn without_negatives(rgb: [f32; 3], softness: f32) -> [f32; 3] {
+    let bend = softness * rgb[0].max(rgb[1]).max(rgb[2]);
+    let positive = rgb.map(|channel| smooth_positive(channel, bend));
+    let scale = luminance(rgb) / luminance(positive);
+    // 0/0 for black, negative where there is no light.
+    if scale > 0.0 {
+        positive.map(|channel| channel * scale)
+    } else {
+        [0.0; 3]
+    }
+}
+
+/// max(c, 0), rounded off by a hyperbola where |c| is of the size of `bend`.
+fn smooth_positive(channel: f32, bend: f32) -> f32 {
+    let root = (channel * channel + bend * bend).sqrt();
+    // For a negative channel the sum would cancel: the product of the roots is bend²/4.
+    if channel >= 0.0 {
+        0.5 * (channel + root)
+    } else if bend > 0.0 {
+        0.5 * bend * bend / (root - channel)
+    } else {
+        0.0
+    }
+}
+
+/// Y of linear Rec. 709 light.
+fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::xyz::xyz_from_rgb;
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn weights_are_those_of_the_matrix() {
+        for (i, weight) in LUMINANCE.into_iter().enumerate() {
+            assert_eq!(weight, xyz_from_rgb().row(1)[i] as f32);
+        }
+    }
+
+    #[test]
+    fn without_softness_what_the_display_can_show_is_left_alone() {
+        assert_eq!(without_negatives([4.0, 0.5, 0.0], 0.0), [4.0, 0.5, 0.0]);
+        assert_eq!(without_negatives([0.0; 3], 0.0), [0.0; 3]);
+    }
+
+    #[test]
+    fn a_colour_without_luminance_is_black() {
+        for softness in [0.0, 0.02] {
+            assert_eq!(without_negatives([0.0; 3], softness), [0.0; 3]);
+            assert_eq!(without_negatives([1.0, -1.0, 0.0], softness), [0.0; 3]);
+            assert_eq!(without_negatives([-1.0; 3], softness), [0.0; 3]);
+        }
+    }
+
+    #[test]
+    fn softness_lets_a_channel_set_in_without_a_kink() {
+        let blue = |b| without_negatives([1.0, 0.2, b], 0.02)[2];
+        let slope = |b: f32| (blue(b + 1e-3) - blue(b - 1e-3)) / 2e-3;
+        for i in -40..40 {
+            let b = i as f32 * 1e-3;
+            assert!((slope(b + 1e-3) - slope(b)).abs() < 0.05, "at {b}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn luminance_stays_and_no_channel_is_negative(
+            r in -1.0..4.0_f32, g in -1.0..4.0_f32, b in -1.0..4.0_f32, softness in 0.0..0.1_f32,
+        ) {
+            let before = luminance([r, g, b]);
+            let mapped = without_negatives([r, g, b], softness);
+            prop_assert!(mapped.iter().all(|channel| *channel >= 0.0));
+            prop_assert!((luminance(mapped) - before.max(0.0)).abs() < 1e-5);
+        }
+
+        #[test]
+        fn the_order_of_the_channels_stays(
+            r in 1.0..4.0_f32, g in 0.0..1.0_f32, b in -0.5..0.0_f32, softness in 0.0..0.1_f32,
+        ) {
+            let [red, green, blue] = without_negatives([r, g, b], softness);
+            prop_assert!(red >= green && green >= blue);
+        }
+
+        #[test]
+        fn grey_stays_grey(grey in 0.0..1e6_f32, softness in 0.0..0.1_f32) {
+            let [r, g, b] = without_negatives([grey; 3], softness);
+            prop_assert!(r == g && g == b && (r - grey).abs() <= 1e-6 * grey);
+        }
+    }
+}
