@@ -39,3 +39,4 @@ pub mod colour;
 pub mod math;
 pub mod physics;
 pub mod spectral;
+pub mod volume;

@@ -1,0 +1,190 @@
+//! From paths to one volume: read each file once, then put the fields together.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use glam::IVec3;
+
+use super::file_volume::FileVolume;
+use super::sniff::{Sniffed, sniff};
+use super::{Format, Grid, Limits, Metadata, Volume, VolumeError};
+use super::{openvdb, report_ascii, report_binary};
+
+/// Enough of a file to tell what it is.
+const HEAD_BYTES: u64 = 256;
+
+/// Opens one file, or several that belong together, as one volume. What a file is, is told by its bytes.
+///
+/// Grids keep the units of their files; [`preset`](super::preset) says what they mean. Where files of one
+/// field come together, dense boxes must be equal; the box of a sparse file is only where its voxels are and
+/// may differ.
+///
+/// # Errors
+/// Any [`VolumeError`]: each names the file, what was expected and found, and what to do. Nothing is allocated
+/// by the word of a header alone.
+pub fn open(paths: &[PathBuf], limits: &Limits) -> Result<Volume, VolumeError> {
+    let (first, rest) = paths.split_first().ok_or(VolumeError::NoFiles)?;
+    let mut parts = vec![read_file(first, limits)?];
+    for path in rest {
+        let part = read_file(path, limits)?;
+        for before in &parts {
+            check_together(before, &part)?;
+        }
+        parts.push(part);
+    }
+    Ok(merge(parts))
+}
+
+impl Volume {
+    /// This volume with the fields of one more file: a temperature that was dropped after its density.
+    ///
+    /// # Errors
+    /// As [`open`] with all the files.
+    pub fn with_file(&self, path: &Path, limits: &Limits) -> Result<Self, VolumeError> {
+        let mut paths = self.sources.clone();
+        paths.push(path.to_owned());
+        open(&paths, limits)
+    }
+}
+
+fn read_file(path: &Path, limits: &Limits) -> Result<FileVolume, VolumeError> {
+    let io = |source| VolumeError::Io {
+        path: path.to_owned(),
+        source,
+    };
+    let about = fs::metadata(path).map_err(io)?;
+    if !about.is_file() {
+        return Err(VolumeError::Unsupported {
+            path: path.to_owned(),
+            found: if about.is_dir() {
+                "a folder"
+            } else {
+                "not a regular file"
+            },
+            advice: "give the volume files themselves",
+        });
+    }
+    limits.check_bytes(path, "the file", about.len())?;
+    let mut file = fs::File::open(path).map_err(io)?;
+    let mut bytes = Vec::new();
+    (&mut file)
+        .take(HEAD_BYTES)
+        .read_to_end(&mut bytes)
+        .map_err(io)?;
+    match sniff(&bytes) {
+        Sniffed::Empty => Err(VolumeError::Empty {
+            path: path.to_owned(),
+        }),
+        Sniffed::Foreign { found, advice } => Err(VolumeError::Unsupported {
+            path: path.to_owned(),
+            found,
+            advice,
+        }),
+        Sniffed::OpenVdb => openvdb::read(path, &bytes, about.len(), limits),
+        text_or_binary => {
+            // The file may have grown since its length was asked for.
+            file.take(limits.max_bytes)
+                .read_to_end(&mut bytes)
+                .map_err(io)?;
+            if text_or_binary == Sniffed::Text {
+                report_ascii::read(path, &bytes, limits)
+            } else {
+                report_binary::read(path, &bytes, limits)
+            }
+        }
+    }
+}
+
+/// Whether two files can be one volume.
+fn check_together(a: &FileVolume, b: &FileVolume) -> Result<(), VolumeError> {
+    let (first, second) = (a.path.clone(), b.path.clone());
+    if (a.format == Format::OpenVdb) != (b.format == Format::OpenVdb) {
+        return Err(VolumeError::FormatsDoNotMix { first, second });
+    }
+    if let (Some(first_dims), Some(second_dims)) = (a.dims, b.dims)
+        && first_dims != second_dims
+    {
+        return Err(VolumeError::DimensionsDiffer {
+            first,
+            first_dims,
+            second,
+            second_dims,
+        });
+    }
+    // A box without voxels outside it is all that a sparse file promises about a dense partner.
+    for (stated, sparse) in [(a, b), (b, a)] {
+        if let (Some(dims), None) = (stated.dims, sparse.dims)
+            && a.format != Format::OpenVdb
+        {
+            let reach = sparse
+                .grids
+                .iter()
+                .fold(super::IndexBox::EMPTY, |sum, grid| sum.union(grid.bounds()));
+            if !reach.is_empty() && (reach.min.min_element() < 0 || reach.max.cmpgt(dims).any()) {
+                return Err(VolumeError::DimensionsDiffer {
+                    first: stated.path.clone(),
+                    first_dims: dims,
+                    second: sparse.path.clone(),
+                    second_dims: reach.max - reach.min.min(IVec3::ZERO),
+                });
+            }
+        }
+    }
+    // Either name stands for the glowing part of a one-field file.
+    let role = |grid: &Grid| match grid.name.as_str() {
+        "soot" if a.format != Format::OpenVdb => "density".to_owned(),
+        name => name.to_owned(),
+    };
+    for grid in &a.grids {
+        if b.grids.iter().any(|other| role(other) == role(grid)) {
+            return Err(VolumeError::SameField {
+                first,
+                second,
+                field: grid.name.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn merge(parts: Vec<FileVolume>) -> Volume {
+    let format = parts
+        .iter()
+        .map(|part| part.format)
+        .reduce(|a, b| if a == b { a } else { Format::Mixed })
+        .unwrap_or(Format::Computed);
+    let mut volume = Volume {
+        voxel_size_is_known: format == Format::OpenVdb,
+        format,
+        grids: Vec::new(),
+        skipped: Vec::new(),
+        sources: Vec::new(),
+        metadata: Metadata::default(),
+        notes: Vec::new(),
+    };
+    for part in parts {
+        volume.grids.extend(part.grids);
+        volume.skipped.extend(part.skipped);
+        volume.sources.push(part.path);
+        volume.notes.extend(part.notes);
+        if volume.metadata == Metadata::default() {
+            volume.metadata = part.metadata;
+        }
+    }
+    let first = volume.grids.first().map(Grid::world_from_index);
+    let differs = |grid: &&Grid| Some(grid.world_from_index()) != first;
+    if let (Some(first), Some(other)) = (volume.grids.first(), volume.grids.iter().find(differs)) {
+        let note = format!(
+            "{} and {} have different voxel sizes or origins: each is placed by its own transform",
+            first.name, other.name
+        );
+        volume.notes.push(note);
+    }
+    for grid in volume.grids.iter().filter(|grid| grid.bounds().is_empty()) {
+        volume
+            .notes
+            .push(format!("{}: no voxel holds data", grid.name));
+    }
+    volume
+}
