@@ -38,5 +38,6 @@
 pub mod colour;
 pub mod math;
 pub mod physics;
+pub mod scene;
 pub mod spectral;
 pub mod volume;

@@ -1,0 +1,216 @@
+//! A pinhole camera in a world of metres with z up.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::math::{Aabb, Ray};
+
+/// Where the eye is and how it looks.
+///
+/// Row 0 of a picture is its top; pixels are square; the field of view is that of the picture's height.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Camera {
+    /// Position of the eye, m.
+    pub eye: DVec3,
+    /// The point in the middle of the picture, m.
+    pub target: DVec3,
+    /// The direction that is up in the picture; need not be perpendicular to the line of sight.
+    pub up: DVec3,
+    /// Vertical field of view, degrees, 0 < fov < 180.
+    pub fov_deg: f64,
+}
+
+/// Why a camera cannot see.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// A coordinate is NaN or infinite.
+    #[error("camera: a coordinate is not a finite number")]
+    NotFinite,
+    /// Eye and target coincide.
+    #[error("camera.eye and camera.target are the same point: move one of them")]
+    NoDirection,
+    /// Up is zero or along the line of sight.
+    #[error("camera.up is zero or points along the line of sight: choose another direction")]
+    NoUp,
+    /// The field of view is outside its range.
+    #[error("camera.fov_deg is {0}: it must lie between 0.01 and 179 degrees")]
+    FieldOfView(f64),
+}
+
+/// Field of view of a camera that frames a box: a 50 mm lens on a 24 mm high frame sees 27°; 32° keeps a fire's
+/// depth without its perspective becoming a caricature.
+pub const FRAMING_FOV_DEG: f64 = 32.0;
+
+/// How much wider than the box a framing is, so that the flame does not touch the picture's edge.
+const FRAMING_MARGIN: f64 = 1.12;
+
+/// An orthonormal basis of the picture: forward, right, up.
+#[derive(Debug, Clone, Copy)]
+pub struct View {
+    eye: DVec3,
+    forward: DVec3,
+    right: DVec3,
+    up: DVec3,
+    /// Half height and half width of the picture at distance 1.
+    half: [f64; 2],
+    size: [u32; 2],
+}
+
+impl Camera {
+    /// A camera at the side of a box (looking along +y), that sees all of it in a picture of the given
+    /// width/height.
+    pub fn framing(bounds: &Aabb, aspect: f64) -> Self {
+        let (centre, size) = (bounds.centre(), bounds.size().max(DVec3::splat(1e-6)));
+        let centre = if bounds.is_empty() {
+            DVec3::ZERO
+        } else {
+            centre
+        };
+        let half_tan = (0.5 * FRAMING_FOV_DEG).to_radians().tan();
+        let half_height = FRAMING_MARGIN * 0.5 * size.z.max(size.x / aspect);
+        let distance = half_height / half_tan + 0.5 * size.y;
+        Self {
+            eye: centre - DVec3::Y * distance,
+            target: centre,
+            up: DVec3::Z,
+            fov_deg: FRAMING_FOV_DEG,
+        }
+    }
+
+    /// This camera's basis for a picture of `size` = width, height in pixels (both at least 1).
+    ///
+    /// # Errors
+    /// [`CameraError`] names the first thing that keeps the camera from seeing.
+    pub fn view(&self, size: [u32; 2]) -> Result<View, CameraError> {
+        if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
+            return Err(CameraError::NotFinite);
+        }
+        if !(0.01..=179.0).contains(&self.fov_deg) {
+            return Err(CameraError::FieldOfView(self.fov_deg));
+        }
+        let forward = (self.target - self.eye)
+            .try_normalize()
+            .ok_or(CameraError::NoDirection)?;
+        let sideways = forward.cross(self.up.try_normalize().ok_or(CameraError::NoUp)?);
+        if sideways.length() < 1e-9 {
+            return Err(CameraError::NoUp);
+        }
+        let right = sideways.normalize();
+        let half_height = (0.5 * self.fov_deg).to_radians().tan();
+        let half_width = half_height * f64::from(size[0]) / f64::from(size[1]);
+        let up = right.cross(forward);
+        Ok(View {
+            eye: self.eye,
+            forward,
+            right,
+            up,
+            half: [half_width, half_height],
+            size,
+        })
+    }
+}
+
+impl View {
+    /// The ray through a point of the picture in pixels from its upper left corner; pixel centres are at
+    /// halves.
+    pub fn ray(&self, x: f64, y: f64) -> Ray {
+        let across = (2.0 * x / f64::from(self.size[0]) - 1.0) * self.half[0];
+        let upwards = (1.0 - 2.0 * y / f64::from(self.size[1])) * self.half[1];
+        let direction = self.forward + across * self.right + upwards * self.up;
+        Ray {
+            origin: self.eye,
+            direction: direction.normalize(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    #[test]
+    fn the_centre_looks_at_the_target_and_row_zero_is_on_top() {
+        let camera = Camera {
+            eye: DVec3::new(1.0, -3.0, 0.5),
+            target: DVec3::ZERO,
+            up: DVec3::Z,
+            fov_deg: 40.0,
+        };
+        let view = camera.view([200, 100]).unwrap();
+        let forward = (camera.target - camera.eye).normalize();
+        assert!(view.ray(100.0, 50.0).direction.abs_diff_eq(forward, 1e-15));
+        assert!(view.ray(100.0, 0.0).direction.z > forward.z);
+        let top = view
+            .ray(100.0, 0.0)
+            .direction
+            .angle_between(forward)
+            .to_degrees();
+        assert!((top - 20.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_framing_sees_every_corner() {
+        let bounds = Aabb {
+            min: DVec3::new(-1.0, 2.0, 0.0),
+            max: DVec3::new(0.5, 3.0, 4.0),
+        };
+        for aspect in [0.3, 1.0, 16.0 / 9.0] {
+            let camera = Camera::framing(&bounds, aspect);
+            let forward = (camera.target - camera.eye).normalize();
+            let half = (0.5 * camera.fov_deg).to_radians().tan();
+            for corner in bounds.corners() {
+                let to = corner - camera.eye;
+                let depth = to.dot(forward);
+                assert!((to.z - forward.z * depth).abs() / depth <= half);
+                assert!((to.x - forward.x * depth).abs() / depth <= half * aspect);
+            }
+        }
+    }
+
+    #[test]
+    fn blind_cameras_say_why() {
+        let good = Camera::framing(
+            &Aabb {
+                min: DVec3::ZERO,
+                max: DVec3::ONE,
+            },
+            1.0,
+        );
+        let size = [8, 8];
+        assert_eq!(
+            Camera {
+                eye: good.target,
+                ..good
+            }
+            .view(size)
+            .unwrap_err(),
+            CameraError::NoDirection
+        );
+        assert_eq!(
+            Camera {
+                up: DVec3::Y,
+                ..good
+            }
+            .view(size)
+            .unwrap_err(),
+            CameraError::NoUp
+        );
+        assert_eq!(
+            Camera {
+                fov_deg: 180.0,
+                ..good
+            }
+            .view(size)
+            .unwrap_err(),
+            CameraError::FieldOfView(180.0)
+        );
+        let lost = Camera {
+            eye: DVec3::new(f64::NAN, 0.0, 0.0),
+            ..good
+        };
+        assert_eq!(lost.view(size).unwrap_err(), CameraError::NotFinite);
+    }
+}

@@ -1,0 +1,168 @@
+//! The flame: a volume, what its fields mean, and the laws of its soot.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::fuel::Fuel;
+use super::medium::Medium;
+use super::packing;
+use crate::math::Aabb;
+use crate::physics::soot::{self, Hold, SootLaw, SootModel};
+use crate::volume::{FieldMaps, UpAxis, Volume};
+
+/// How the file's axes and lengths lie in the world of metres with z up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// The file's axis that points up.
+    pub up: UpAxis,
+    /// Metres for one unit of the file's transform.
+    pub metres_per_unit: f64,
+}
+
+impl Placement {
+    /// The world from the file's own frame.
+    pub fn world_from_file(&self) -> DAffine3 {
+        let turn = match self.up {
+            UpAxis::Z => DMat3::IDENTITY,
+            // y up → z up: a quarter turn about x.
+            UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
+        };
+        DAffine3::from_mat3(turn * self.metres_per_unit)
+    }
+}
+
+/// Everything about the flame that a person can set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlameParams {
+    /// Which grid is which field, and in what units.
+    pub maps: FieldMaps,
+    /// The file's frame in the world.
+    pub placement: Placement,
+    /// What burns.
+    pub fuel: Fuel,
+    /// How σ_a depends on wavelength.
+    pub soot_model: SootModel,
+    /// Radius of a primary soot particle, nm, above 0.
+    pub soot_radius_nm: f64,
+    /// What stays the same when the radius changes.
+    pub soot_hold: Hold,
+    /// Multiplies the soot field, at least 0.
+    pub soot_amount: f64,
+    /// Multiplies the smoke field, at least 0.
+    pub smoke_amount: f64,
+    /// Temperature of the air, K: where the volume has no temperature field.
+    pub ambient_k: f64,
+}
+
+/// What must be packed anew: everything about the medium except the laws.
+#[derive(Debug, Clone, PartialEq)]
+struct PackingKey {
+    maps: FieldMaps,
+    placement: Placement,
+    /// Soot and smoke as packed. Without a smoke field only the presence of soot counts, so that its amount
+    /// can change without packing.
+    amounts: [f64; 2],
+    ambient_k: f64,
+}
+
+/// A volume made into a medium with optics. Cheap to clone.
+#[derive(Debug, Clone)]
+pub struct Flame {
+    volume: Arc<Volume>,
+    key: PackingKey,
+    medium: Arc<Medium>,
+    soot: SootLaw,
+    /// Multiplies the medium's volume fraction: amount and radius.
+    volume_fraction_factor: f64,
+}
+
+impl Flame {
+    /// Makes the medium and its laws. What `before` has packed already is taken over if it is the same.
+    pub fn new(volume: &Arc<Volume>, params: &FlameParams, before: Option<&Self>) -> Self {
+        let radius_factor = soot::volume_fraction_factor(params.soot_hold, params.soot_radius_nm);
+        let two_fields = params.maps.smoke.is_some() && params.smoke_amount > 0.0;
+        let (amounts, common) = if two_fields || params.soot_amount <= 0.0 {
+            ([params.soot_amount, params.smoke_amount], 1.0)
+        } else {
+            ([1.0, 0.0], params.soot_amount)
+        };
+        let key = PackingKey {
+            maps: params.maps.clone(),
+            placement: params.placement,
+            amounts,
+            ambient_k: params.ambient_k,
+        };
+        let reusable =
+            before.filter(|before| Arc::ptr_eq(&before.volume, volume) && before.key == key);
+        let medium = reusable.map_or_else(
+            || {
+                let frame = params.placement.world_from_file();
+                let [soot, smoke] = key.amounts;
+                Arc::new(packing::pack(
+                    volume,
+                    &key.maps,
+                    soot,
+                    smoke,
+                    key.ambient_k,
+                    &frame,
+                ))
+            },
+            |before| Arc::clone(&before.medium),
+        );
+        Self {
+            volume: Arc::clone(volume),
+            key,
+            medium,
+            soot: SootLaw {
+                model: params.soot_model,
+                fuel_index: params.fuel.soot_index(),
+            },
+            volume_fraction_factor: common * radius_factor,
+        }
+    }
+
+    /// The packed fields.
+    pub fn medium(&self) -> &Medium {
+        &self.medium
+    }
+
+    /// Whether two flames share their packed fields.
+    pub fn shares_medium_with(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.medium, &other.medium)
+    }
+
+    /// How this flame's soot absorbs.
+    pub fn soot(&self) -> SootLaw {
+        self.soot
+    }
+
+    /// Absorption coefficient at a wavelength for a volume fraction of the *medium*, 1/m for each unit: the
+    /// soot's law times amount and radius.
+    pub fn absorption_per_sample(&self, lambda_nm: f64) -> f64 {
+        self.volume_fraction_factor * self.soot.absorption_per_volume_fraction(lambda_nm)
+    }
+}
+
+/// The box of a volume's soot and smoke in the world, metres, where they differ from what surrounds them; empty
+/// if there are none.
+pub fn world_bounds(volume: &Volume, maps: &FieldMaps, placement: &Placement) -> Aabb {
+    let fields = [&maps.soot, &maps.smoke];
+    fields
+        .into_iter()
+        .flatten()
+        .filter_map(|map| volume.grid(&map.grid))
+        .fold(Aabb::EMPTY, |hull, grid| {
+            let bounds = grid.occupied();
+            if bounds.is_empty() {
+                return hull;
+            }
+            let voxels = Aabb {
+                min: bounds.min.as_dvec3() - 0.5,
+                max: bounds.max.as_dvec3() - 0.5,
+            };
+            hull.union(
+                &voxels.transformed(&(placement.world_from_file() * grid.world_from_index())),
+            )
+        })
+}

@@ -1,0 +1,37 @@
+//! What is looked at, and from where: a [`Flame`] and a [`Camera`].
+//!
+//! The way from a file to something that can be marched: a `Volume` of named grids and [`FlameParams`] give a
+//! [`Medium`] (fields in physical units, packed for the march) and optics (laws of the fuel's soot). Grids are
+//! only touched when a field's mapping changes; fuel, radius and amount only change the laws.
+
+pub mod camera;
+mod fit;
+pub mod flame;
+pub mod fuel;
+pub mod medium;
+mod packing;
+pub mod quadrature;
+
+pub use camera::Camera;
+pub use flame::{Flame, FlameParams, Placement};
+pub use fuel::Fuel;
+pub use medium::Medium;
+pub use quadrature::WavelengthSet;
+
+/// Packs a volume whose fields are physical and in metres, for tests of the floors above.
+#[cfg(test)]
+pub(crate) fn packing_for_tests(
+    volume: &crate::volume::Volume,
+    maps: &crate::volume::FieldMaps,
+) -> Medium {
+    packing::pack(volume, maps, 1.0, 1.0, 300.0, &glam::DAffine3::IDENTITY)
+}
+
+/// Everything that light passes on its way to the film.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The glowing, absorbing medium.
+    pub flame: Flame,
+    /// The eye.
+    pub camera: Camera,
+}
