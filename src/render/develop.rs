@@ -1,0 +1,128 @@
+//! From a film to a picture: automatic exposure, and the only road to files and golden images.
+//!
+//! The window develops with the same [`BakedView`] in its shader; here it is applied on the processor.
+
+use rayon::prelude::*;
+
+use super::film::{Film, Pixel};
+use crate::colour::display::{BakedView, Curve, View};
+
+/// What a person sets of the view; exposure is relative to the automatic one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViewParams {
+    /// Stops above the automatic exposure.
+    pub exposure_ev: f64,
+    /// Degree of von Kries adaptation to the fire's own white, 0 to 1.
+    pub adaptation: f64,
+    /// How light becomes display values.
+    pub curve: Curve,
+}
+
+/// What the automatic exposure saw.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Metering {
+    /// Multiplies XYZ so that a fire of ordinary contrast fills the display's range.
+    pub exposure: f64,
+    /// Colour of the hottest visible part: mean XYZ of the brightest pixels, W m⁻² sr⁻¹. Black for a black
+    /// film.
+    pub white_xyz: [f64; 3],
+    /// Y of the 99.5th percentile of lit pixels, W m⁻² sr⁻¹; 0 for a black film.
+    pub bright_y: f64,
+}
+
+/// Pixels darker than this share of the brightest are not lit.
+const LIT: f32 = 1e-4;
+/// The share of lit pixels that is darker than the bright ones.
+const BRIGHT: f64 = 0.995;
+/// Display-linear value of the 99.5th percentile of lit pixels: the body of a flame stays below white, its core
+/// goes above and rolls off along the curve.
+const BRIGHT_LEVEL: f64 = 4.0;
+
+impl Metering {
+    /// Meters a film. Non-finite pixels are left out.
+    pub fn of(film: &Film) -> Self {
+        let usable = |pixel: &&Pixel| pixel.xyz.iter().all(|v| v.is_finite());
+        let peak = film
+            .pixels()
+            .iter()
+            .filter(usable)
+            .map(|pixel| pixel.xyz[1])
+            .fold(0.0, f32::max);
+        if peak <= 0.0 {
+            return Self {
+                exposure: 1.0,
+                white_xyz: [0.0; 3],
+                bright_y: 0.0,
+            };
+        }
+        let mut lit: Vec<&Pixel> = film
+            .pixels()
+            .iter()
+            .filter(usable)
+            .filter(|pixel| pixel.xyz[1] > LIT * peak)
+            .collect();
+        let at = ((lit.len() as f64 * BRIGHT) as usize).min(lit.len() - 1);
+        lit.select_nth_unstable_by(at, |a, b| a.xyz[1].total_cmp(&b.xyz[1]));
+        let bright_y = f64::from(lit[at].xyz[1]);
+        let brightest = &lit[at..];
+        let mean = |c: usize| {
+            brightest
+                .iter()
+                .map(|pixel| f64::from(pixel.xyz[c]))
+                .sum::<f64>()
+                / brightest.len() as f64
+        };
+        Self {
+            exposure: BRIGHT_LEVEL / bright_y,
+            white_xyz: [mean(0), mean(1), mean(2)],
+            bright_y,
+        }
+    }
+
+    /// The view of a film metered so.
+    pub fn view(&self, params: &ViewParams) -> View {
+        View {
+            exposure: self.exposure * params.exposure_ev.exp2(),
+            adaptation: params.adaptation,
+            white_xyz: self.white_xyz,
+            curve: params.curve,
+        }
+    }
+}
+
+/// Display values of a film, sRGB-encoded, 0 to 1, row by row from the top.
+pub fn develop(film: &Film, view: &BakedView) -> Vec<[f32; 3]> {
+    film.pixels()
+        .par_iter()
+        .map(|pixel| view.apply(pixel.xyz))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::Tile;
+
+    #[test]
+    fn a_black_film_and_a_spoilt_pixel_do_not_upset_the_meter() {
+        let mut film = Film::new([2, 1]);
+        assert_eq!(Metering::of(&film).bright_y, 0.0);
+        let pixels = [[f32::NAN; 3], [1.0, 2.0, 0.5]]
+            .map(|xyz| Pixel {
+                xyz,
+                opacity: [0.0; 3],
+            })
+            .to_vec();
+        film.merge(&Tile {
+            stride: 1,
+            sample: 0,
+            origin: [0, 0],
+            size: [2, 1],
+            pixels,
+            samples: 0,
+        });
+        let metering = Metering::of(&film);
+        assert_eq!(metering.bright_y, 2.0);
+        assert_eq!(metering.white_xyz, [1.0, 2.0, 0.5]);
+    }
+}

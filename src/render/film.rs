@@ -1,0 +1,137 @@
+//! The film: where spectra become three numbers, and where passes and samples come together.
+
+/// What one ray, or the mean of many, leaves on the film.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Pixel {
+    /// X, Y, Z of the radiance, W m⁻² sr⁻¹; luminance is 683 Y cd m⁻².
+    pub xyz: [f32; 3],
+    /// X, Y, Z of 1 − transmittance under D65, Y = 1 for an opaque pixel.
+    pub opacity: [f32; 3],
+}
+
+/// A rectangle of a pass, on its way to a film.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tile {
+    /// Pixels of the picture between neighbours of this tile, a power of two.
+    pub stride: u32,
+    /// Which sample of the pixel this is; 0 is the first.
+    pub sample: u32,
+    /// Upper left pixel of the picture that this tile covers.
+    pub origin: [u32; 2],
+    /// Width and height, in steps of `stride`.
+    pub size: [u32; 2],
+    /// Row by row from the top.
+    pub pixels: Vec<Pixel>,
+    /// Samples of the medium that were taken for it.
+    pub samples: u64,
+}
+
+/// A picture in linear XYZ with opacity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Film {
+    size: [u32; 2],
+    pixels: Vec<Pixel>,
+}
+
+impl Film {
+    /// A black, clear film of width × height pixels.
+    pub fn new(size: [u32; 2]) -> Self {
+        Self {
+            size,
+            pixels: vec![Pixel::default(); size[0] as usize * size[1] as usize],
+        }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Row by row from the top.
+    pub fn pixels(&self) -> &[Pixel] {
+        &self.pixels
+    }
+
+    /// The pixel at column x, row y, if it is on the film.
+    pub fn pixel(&self, x: u32, y: u32) -> Option<&Pixel> {
+        (x < self.size[0] && y < self.size[1])
+            .then(|| &self.pixels[(y * self.size[0] + x) as usize])
+    }
+
+    /// Lays a tile on the film. A coarse one fills its blocks; a later sample joins the mean of those before
+    /// it, so the samples of a pixel must arrive in order (tiles of one pass may come in any).
+    pub fn merge(&mut self, tile: &Tile) {
+        let [width, height] = self.size;
+        let share = 1.0 / (tile.sample as f32 + 1.0);
+        for (i, pixel) in tile.pixels.iter().enumerate() {
+            let (column, row) = (i as u32 % tile.size[0], i as u32 / tile.size[0]);
+            let left = tile.origin[0] + column * tile.stride;
+            let top = tile.origin[1] + row * tile.stride;
+            for y in top..(top + tile.stride).min(height) {
+                let row = (y * width) as usize;
+                let right = (left + tile.stride).min(width);
+                for old in &mut self.pixels[row + left as usize..row + right as usize] {
+                    if tile.sample == 0 {
+                        *old = *pixel;
+                    } else {
+                        old.join(pixel, share);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Pixel {
+    /// Moves the mean towards one more sample, which counts for `share` of the whole.
+    fn join(&mut self, sample: &Self, share: f32) {
+        for c in 0..3 {
+            self.xyz[c] += share * (sample.xyz[c] - self.xyz[c]);
+            self.opacity[c] += share * (sample.opacity[c] - self.opacity[c]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tile(stride: u32, sample: u32, origin: [u32; 2], size: [u32; 2], y: f32) -> Tile {
+        let pixel = Pixel {
+            xyz: [0.0, y, 0.0],
+            opacity: [0.0; 3],
+        };
+        Tile {
+            stride,
+            sample,
+            origin,
+            size,
+            pixels: vec![pixel; (size[0] * size[1]) as usize],
+            samples: 0,
+        }
+    }
+
+    #[test]
+    fn a_coarse_tile_fills_its_blocks_up_to_the_edge() {
+        let mut film = Film::new([5, 3]);
+        film.merge(&tile(4, 0, [4, 0], [1, 1], 2.0));
+        let lit: Vec<bool> = film
+            .pixels()
+            .iter()
+            .map(|pixel| pixel.xyz[1] > 0.0)
+            .collect();
+        assert_eq!(lit.iter().filter(|&&lit| lit).count(), 3);
+        assert!(lit[4] && lit[9] && lit[14]);
+    }
+
+    #[test]
+    fn samples_are_averaged_and_a_new_first_sample_replaces_them() {
+        let mut film = Film::new([1, 1]);
+        for (sample, y) in [1.0, 2.0, 6.0].into_iter().enumerate() {
+            film.merge(&tile(1, sample as u32, [0, 0], [1, 1], y));
+        }
+        assert_eq!(film.pixels()[0].xyz[1], 3.0);
+        film.merge(&tile(1, 0, [0, 0], [1, 1], 7.0));
+        assert_eq!(film.pixels()[0].xyz[1], 7.0);
+    }
+}

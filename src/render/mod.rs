@@ -1,0 +1,184 @@
+//! The core: from a scene to a film. Headless, without a clock, without global state.
+//!
+//! [`Settings`] say how accurate, [`Plan`] what is computed for this scene at these settings, [`pass`] in which
+//! order, [`march`] how, [`film`] where it lands, [`develop`] how a film becomes a picture.
+//!
+//! Everything here is deterministic: the same scene and settings give the same bits, whatever the number of
+//! threads or the order of tiles, because a pixel's value depends on its own ray alone.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use thiserror::Error;
+
+use crate::scene::{Scene, WavelengthSet};
+
+mod chord;
+pub mod develop;
+pub mod film;
+pub mod march;
+pub mod pass;
+pub mod plan;
+
+pub use film::{Film, Pixel, Tile};
+pub use pass::{Pass, render_pass};
+pub use plan::Plan;
+
+/// How accurate a picture is, in concrete numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Length of a step in voxels.
+    pub step_voxels: f64,
+    /// At which wavelengths light is transported.
+    pub wavelengths: WavelengthSet,
+    /// Rays for each pixel; 1 is the pixel's centre.
+    pub samples_per_pixel: u32,
+}
+
+/// Why settings cannot be rendered with.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// A side is zero or too long.
+    #[error("the picture is {} × {} pixels: each side must be 1 to {MAX_SIDE}", .0[0], .0[1])]
+    Size([u32; 2]),
+    /// The step is not a number in its range.
+    #[error("render.step_voxels is {0}: it must lie between {min} and {max}", min = STEP_RANGE[0], max = STEP_RANGE[1])]
+    Step(f64),
+    /// Too few or too many rays.
+    #[error("render.samples_per_pixel is {0}: it must lie between 1 and {MAX_SAMPLES}")]
+    Samples(u32),
+}
+
+/// Longest side of a picture in pixels.
+pub const MAX_SIDE: u32 = 16384;
+/// Shortest and longest step in voxels. A step beyond the box is one step of its chord.
+pub const STEP_RANGE: [f64; 2] = [0.01, 64.0];
+/// Most rays for one pixel.
+pub const MAX_SAMPLES: u32 = 4096;
+
+impl Settings {
+    /// The settings, if every number lies in its range.
+    ///
+    /// # Errors
+    /// [`SettingsError`] names the first number that does not, its value and its range.
+    pub fn validated(self) -> Result<Self, SettingsError> {
+        if !self.size.iter().all(|side| (1..=MAX_SIDE).contains(side)) {
+            return Err(SettingsError::Size(self.size));
+        }
+        if !(STEP_RANGE[0]..=STEP_RANGE[1]).contains(&self.step_voxels) {
+            return Err(SettingsError::Step(self.step_voxels));
+        }
+        if !(1..=MAX_SAMPLES).contains(&self.samples_per_pixel) {
+            return Err(SettingsError::Samples(self.samples_per_pixel));
+        }
+        Ok(self)
+    }
+
+    /// Pixels of the picture.
+    pub fn pixels(&self) -> u64 {
+        u64::from(self.size[0]) * u64::from(self.size[1])
+    }
+}
+
+/// What could not be faithful in a frame, in words for a person. Sorted, each said once.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Flaws(BTreeSet<String>);
+
+impl Flaws {
+    /// Adds a flaw in words.
+    pub fn add(&mut self, words: impl Into<String>) {
+        self.0.insert(words.into());
+    }
+
+    /// Whether the frame is as faithful as it was asked to be.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The flaws in words.
+    pub fn iter(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(String::as_str)
+    }
+}
+
+impl Extend<String> for Flaws {
+    fn extend<T: IntoIterator<Item = String>>(&mut self, words: T) {
+        self.0.extend(words);
+    }
+}
+
+/// Tells a render that nobody waits for it any more: a generation that has passed.
+#[derive(Debug, Clone, Default)]
+pub struct Cancel {
+    current: Arc<AtomicU64>,
+    mine: u64,
+}
+
+impl Cancel {
+    /// A render that nothing cancels.
+    pub fn never() -> Self {
+        Self::default()
+    }
+
+    /// Cancelled as soon as `current` differs from `mine`.
+    pub fn when_passed(current: Arc<AtomicU64>, mine: u64) -> Self {
+        Self { current, mine }
+    }
+
+    /// Whether to stop.
+    pub fn is_cancelled(&self) -> bool {
+        self.current.load(Ordering::Relaxed) != self.mine
+    }
+}
+
+/// A finished still: the film of every pass, with counts.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// The accumulated picture.
+    pub film: Film,
+    /// Rays marched.
+    pub rays: u64,
+    /// Samples of the medium taken.
+    pub samples: u64,
+}
+
+/// Renders every sample of a still in the calling thread's rayon pool, without coarse passes.
+///
+/// `progress` hears the finished share, 0 to 1, after each tile, from any thread. `None` if cancelled.
+pub fn render_still(
+    scene: &Scene,
+    settings: &Settings,
+    cancel: &Cancel,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Option<Frame> {
+    let plan = Plan::new(scene, settings);
+    let passes = pass::ladder(settings, pass::Audience::Still);
+    let film = std::sync::Mutex::new(Film::new(settings.size));
+    let counts = [AtomicU64::new(0), AtomicU64::new(0)];
+    let all = settings.pixels() * passes.len() as u64;
+    for pass in &passes {
+        let finished = render_pass(scene, &plan, pass, cancel, &|tile| {
+            counts[1].fetch_add(tile.samples, Ordering::Relaxed);
+            film.lock()
+                .unwrap_or_else(std::sync::PoisonError::into_inner)
+                .merge(&tile);
+            let rays = counts[0].fetch_add(tile.pixels.len() as u64, Ordering::Relaxed);
+            progress((rays + tile.pixels.len() as u64) as f64 / all as f64);
+        });
+        if !finished {
+            return None;
+        }
+    }
+    let [rays, samples] = counts.map(AtomicU64::into_inner);
+    Some(Frame {
+        film: film
+            .into_inner()
+            .unwrap_or_else(std::sync::PoisonError::into_inner),
+        rays,
+        samples,
+    })
+}

@@ -1,0 +1,200 @@
+//! In which order a picture is computed: a ladder of passes, tiles from the centre outwards, a parallel loop.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use super::film::{Pixel, Tile};
+use super::march::{Marcher, PACKET_SIDE};
+use super::{Cancel, Plan, Settings};
+use crate::math::lanes::LANES;
+use crate::scene::Scene;
+
+/// Edge of a tile, in rays.
+pub const TILE: u32 = 32;
+
+/// One walk over the picture: every `stride`th pixel, one ray each.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pass {
+    /// Pixels between rays, a power of two.
+    pub stride: u32,
+    /// Which of the pixel's samples; 0 is the pixel's centre.
+    pub sample: u32,
+    /// Length of a step in voxels.
+    pub step_voxels: f64,
+}
+
+/// Who waits for the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Audience {
+    /// A person: coarse first, sharpening while she watches.
+    Window,
+    /// A file: only what counts.
+    Still,
+}
+
+/// Step of the coarse passes in voxels, if the settings do not ask for a longer one: a 1/8 picture does not
+/// show the 0.3 % that a longer step costs.
+const COARSE_STEP_VOXELS: f64 = 2.0;
+
+/// The passes of a picture in their order.
+pub fn ladder(settings: &Settings, audience: Audience) -> Vec<Pass> {
+    let coarse = match audience {
+        Audience::Window => &[8, 4, 2][..],
+        Audience::Still => &[],
+    };
+    let step_voxels = settings.step_voxels;
+    let coarse = coarse.iter().map(|&stride| Pass {
+        stride,
+        sample: 0,
+        step_voxels: step_voxels.max(COARSE_STEP_VOXELS),
+    });
+    let full = (0..settings.samples_per_pixel).map(|sample| Pass {
+        stride: 1,
+        sample,
+        step_voxels,
+    });
+    coarse.chain(full).collect()
+}
+
+/// Where in its pixel a sample lies: the additive recurrence on the plastic number (Roberts 2018), which fills
+/// the square evenly at every count and starts at the centre.
+fn offset(sample: u32) -> [f64; 2] {
+    const PLASTIC: f64 = 1.324717957244746;
+    [1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC)].map(|step| (0.5 + f64::from(sample) * step).fract())
+}
+
+/// Renders one pass in the calling thread's rayon pool, tiles from the centre of the picture outwards, and hands
+/// each to `sink` from the worker that made it. `false` if it was cancelled before the last tile.
+///
+/// The cancel is asked once for each row of packets. A camera that cannot see gives no tiles: settings and
+/// camera are checked at the doors.
+pub fn render_pass(
+    scene: &Scene,
+    plan: &Plan,
+    pass: &Pass,
+    cancel: &Cancel,
+    sink: &(dyn Fn(Tile) + Sync),
+) -> bool {
+    let Ok(marcher) = Marcher::new(scene, plan, pass.step_voxels) else {
+        return true;
+    };
+    let rays = plan.size.map(|side| side.div_ceil(pass.stride));
+    let tiles = centre_out(rays);
+    let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+    rayon::broadcast(|_| {
+        while let Some(&corner) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let size = [0, 1].map(|axis| TILE.min(rays[axis] - corner[axis]));
+            match render_tile(&marcher, pass, corner, size, cancel) {
+                Some(tile) => sink(tile),
+                None => stopped.store(true, Ordering::Relaxed),
+            }
+        }
+    });
+    !stopped.into_inner()
+}
+
+/// Upper left rays of all tiles, those nearest the centre first.
+fn centre_out(rays: [u32; 2]) -> Vec<[u32; 2]> {
+    let corners = |axis: usize| (0..rays[axis]).step_by(TILE as usize);
+    let mut tiles: Vec<[u32; 2]> = corners(1)
+        .flat_map(|y| corners(0).map(move |x| [x, y]))
+        .collect();
+    let from_centre = |corner: u32, side: u32| {
+        let doubled = i64::from(2 * corner + TILE) - i64::from(side);
+        doubled * doubled
+    };
+    tiles.sort_by_key(|&[x, y]| from_centre(x, rays[0]) + from_centre(y, rays[1]));
+    tiles
+}
+
+/// `None` if cancelled.
+fn render_tile(
+    marcher: &Marcher<'_>,
+    pass: &Pass,
+    corner: [u32; 2],
+    size: [u32; 2],
+    cancel: &Cancel,
+) -> Option<Tile> {
+    let mut pixels = vec![Pixel::default(); (size[0] * size[1]) as usize];
+    let mut samples = 0;
+    let offset = offset(pass.sample);
+    for top in (0..size[1]).step_by(PACKET_SIDE as usize) {
+        if cancel.is_cancelled() {
+            return None;
+        }
+        for left in (0..size[0]).step_by(PACKET_SIDE as usize) {
+            // Steps of a packet: which pixels, which rays, the march, and back to their places.
+            let places: [Option<[u32; 2]>; LANES] = std::array::from_fn(|lane| {
+                let place = [
+                    left + lane as u32 % PACKET_SIDE,
+                    top + lane as u32 / PACKET_SIDE,
+                ];
+                (place[0] < size[0] && place[1] < size[1]).then_some(place)
+            });
+            let points = places.map(|place| {
+                let on_picture = |axis: usize, ray: u32| {
+                    (f64::from(corner[axis] + ray) + offset[axis]) * f64::from(pass.stride)
+                };
+                place.map(|[x, y]| [on_picture(0, x), on_picture(1, y)])
+            });
+            let (packet, taken) = marcher.march(&points);
+            samples += taken;
+            for (place, pixel) in places.iter().zip(packet) {
+                if let Some([x, y]) = place {
+                    pixels[(y * size[0] + x) as usize] = pixel;
+                }
+            }
+        }
+    }
+    let origin = corner.map(|ray| ray * pass.stride);
+    Some(Tile {
+        stride: pass.stride,
+        sample: pass.sample,
+        origin,
+        size,
+        pixels,
+        samples,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::WavelengthSet;
+
+    const SETTINGS: Settings = Settings {
+        size: [100, 50],
+        step_voxels: 0.5,
+        wavelengths: WavelengthSet::Fitted(4),
+        samples_per_pixel: 3,
+    };
+
+    #[test]
+    fn a_window_sharpens_and_a_still_skips_the_coarse_passes() {
+        let strides: Vec<u32> = ladder(&SETTINGS, Audience::Window)
+            .iter()
+            .map(|pass| pass.stride)
+            .collect();
+        assert_eq!(strides, [8, 4, 2, 1, 1, 1]);
+        assert_eq!(ladder(&SETTINGS, Audience::Still).len(), 3);
+    }
+
+    #[test]
+    fn the_first_sample_is_the_pixel_centre_and_the_rest_spread_evenly() {
+        assert_eq!(offset(0), [0.5, 0.5]);
+        let mean = (0..64)
+            .map(offset)
+            .fold([0.0; 2], |m, o| [m[0] + o[0] / 64.0, m[1] + o[1] / 64.0]);
+        assert!(mean.iter().all(|m| (m - 0.5).abs() < 0.02), "{mean:?}");
+    }
+
+    #[test]
+    fn tiles_cover_every_ray_once_and_begin_in_the_middle() {
+        let tiles = centre_out([100, 50]);
+        assert_eq!(tiles.len(), 4 * 2);
+        assert!(tiles[0][0] == 32 || tiles[0][0] == 64);
+        let mut sorted = tiles.clone();
+        sorted.sort_unstable();
+        sorted.dedup();
+        assert_eq!(sorted.len(), tiles.len());
+    }
+}

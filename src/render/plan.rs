@@ -1,0 +1,76 @@
+//! What is computed for a scene at given settings: laws baked into tables for the march.
+//!
+//! The laws are f64; the tables are f32 with the units chosen so that nothing under- or overflows (wavelengths
+//! in nm, Planck's constants per nm).
+
+use super::Settings;
+use crate::physics::blackbody;
+use crate::scene::Scene;
+use crate::spectral::Wavelengths;
+
+/// One wavelength of the march.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// Absorption coefficient for each unit of the medium's volume fraction, 1/m.
+    pub absorption: f32,
+    /// 2hc²/λ⁵, W m⁻² sr⁻¹ nm⁻¹: Planck's radiance without its exponential.
+    pub planck_scale: f32,
+    /// hc/(λk), K: Planck's exponent times temperature.
+    pub planck_exponent_k: f32,
+}
+
+/// Tables for one scene at one accuracy.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// Nodes and what they weigh in XYZ.
+    pub wavelengths: Wavelengths,
+    /// The march's view of the same nodes.
+    pub nodes: Vec<Node>,
+    /// Picture size in pixels.
+    pub size: [u32; 2],
+    /// Once the medium's column ∫ f_v ds (m) exceeds this, no wavelength lets anything behind be seen.
+    pub opaque_column_m: f32,
+}
+
+/// Most wavelengths of any set.
+pub const MAX_NODES: usize = 64;
+
+/// Optical depth at which a ray stops: what is behind keeps e⁻²⁴ = 4e-11 of its radiance, below a hundredth of an f32's last digit
+/// for anything up to ten thousand times as bright as what is in front.
+const OPAQUE_DEPTH: f64 = 24.0;
+
+impl Plan {
+    /// Bakes the tables for the settings' own wavelengths.
+    pub fn new(scene: &Scene, settings: &Settings) -> Self {
+        Self::with_wavelengths(
+            scene,
+            settings.size,
+            settings.wavelengths.wavelengths(scene.flame.soot()),
+        )
+    }
+
+    /// Bakes the tables for given wavelengths, at most [`MAX_NODES`] of them: those of a measurement, say.
+    pub fn with_wavelengths(scene: &Scene, size: [u32; 2], wavelengths: Wavelengths) -> Self {
+        debug_assert!(wavelengths.len() <= MAX_NODES);
+        let nodes: Vec<Node> = wavelengths
+            .nodes_nm
+            .iter()
+            .map(|&nm| Node {
+                absorption: scene.flame.absorption_per_sample(nm) as f32,
+                planck_scale: (blackbody::FIRST_RADIATION_CONSTANT / nm.powi(5)) as f32,
+                planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
+            })
+            .collect();
+        let clearest = nodes
+            .iter()
+            .map(|node| node.absorption)
+            .fold(f32::INFINITY, f32::min);
+        let opaque_column_m = (OPAQUE_DEPTH / f64::from(clearest)) as f32;
+        Self {
+            wavelengths,
+            nodes,
+            size,
+            opaque_column_m,
+        }
+    }
+}
