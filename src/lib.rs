@@ -38,6 +38,7 @@
 pub mod colour;
 pub mod math;
 pub mod physics;
+pub mod project;
 pub mod render;
 pub mod scene;
 pub mod spectral;

@@ -1,0 +1,372 @@
+//! From what a person set to what the renderer takes: every check that can fail is made here.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::settings::{FieldSettings, Project, Up};
+use crate::render::develop::ViewParams;
+use crate::render::{Flaws, Settings, SettingsError};
+use crate::scene::camera::{CameraError, FRAMING_FOV_DEG};
+use crate::scene::{Camera, Flame, FlameParams, Placement, Scene, flame};
+use crate::volume::{self, FieldKind, FieldMap, FieldMaps, Producer, UpAxis, Volume};
+
+/// A picture to be made: comparable, so that the window submits only what changed, and cheap to clone.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// The open volume.
+    pub volume: Arc<Volume>,
+    /// What its fields mean and how its soot behaves.
+    pub flame: FlameParams,
+    /// The eye.
+    pub camera: Camera,
+    /// How accurate.
+    pub settings: Settings,
+    /// What is assumed or cannot be faithful, known before a ray is marched.
+    pub flaws: Flaws,
+    /// Whose conventions the fields follow here.
+    pub producer: Producer,
+}
+
+impl PartialEq for Job {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.volume, &other.volume)
+            && self.flame == other.flame
+            && self.camera == other.camera
+            && self.settings == other.settings
+    }
+}
+
+impl Job {
+    /// Packs the medium and bakes the laws; takes over from `before` what is the same.
+    pub fn scene(&self, before: Option<&Scene>) -> Scene {
+        let flame = Flame::new(
+            &self.volume,
+            &self.flame,
+            before.map(|before| &before.flame),
+        );
+        Scene {
+            flame,
+            camera: self.camera,
+        }
+    }
+}
+
+/// Why a project cannot be rendered.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ProjectError {
+    /// A number lies outside its range.
+    #[error("{key} is {value}: it must lie between {min} and {max}")]
+    Range {
+        /// Dotted key of the scene file.
+        key: &'static str,
+        /// What was set.
+        value: f64,
+        /// Least allowed.
+        min: f64,
+        /// Greatest allowed.
+        max: f64,
+    },
+    /// A factor or an offset is no number.
+    #[error("{key} is {value}: it must be a finite number")]
+    NotFinite {
+        /// Dotted key of the scene file.
+        key: String,
+        /// What was set.
+        value: f64,
+    },
+    /// Nothing lies between a field's bounds.
+    #[error(
+        "{key} is {min}, which is not below the greatest value {max}: give a min that is at most max"
+    )]
+    NoInterval {
+        /// Dotted key of the scene file.
+        key: String,
+        /// The least value.
+        min: f64,
+        /// The greatest value.
+        max: f64,
+    },
+    /// A field names a grid that the file does not have.
+    #[error("{key} is \"{name}\", but the file has {available}{hint}")]
+    NoSuchGrid {
+        /// Dotted key of the scene file.
+        key: String,
+        /// What was set.
+        name: String,
+        /// The grids there are.
+        available: String,
+        /// "; did you mean …?" or nothing.
+        hint: String,
+    },
+    /// Nothing in the file can glow or absorb.
+    #[error(
+        "nothing to render: no grid is mapped to soot or smoke. The file has {available}; set volume.soot.grid"
+    )]
+    NothingToRender {
+        /// The grids there are.
+        available: String,
+    },
+    /// A number of the render section.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// The camera cannot see.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+}
+
+impl Project {
+    /// The picture that this project asks for, of the given volume.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the key, its value and what would be right.
+    pub fn job(&self, volume: &Arc<Volume>) -> Result<Job, ProjectError> {
+        self.check_ranges()?;
+        let producer = match self.volume.producer {
+            Producer::Auto => volume::recognise(volume).producer,
+            chosen => chosen,
+        };
+        let preset = volume::preset(producer, volume);
+        let mut flaws = Flaws::default();
+        flaws.extend(volume.notes.iter().cloned());
+        flaws.extend(preset.flaws.iter().cloned());
+
+        let fields = &self.volume;
+        let merge = |kind, settings, base| merged(volume, kind, settings, base);
+        let maps = FieldMaps {
+            soot: merge(FieldKind::Soot, &fields.soot, preset.maps.soot)?,
+            smoke: merge(FieldKind::Smoke, &fields.smoke, preset.maps.smoke)?,
+            flame: merge(FieldKind::Flame, &fields.flame, preset.maps.flame)?,
+            temperature: merge(
+                FieldKind::Temperature,
+                &fields.temperature,
+                preset.maps.temperature,
+            )?,
+        };
+        if maps.soot.is_none() && maps.smoke.is_none() {
+            return Err(ProjectError::NothingToRender {
+                available: grid_names(volume),
+            });
+        }
+        let up = match fields.up {
+            Up::Auto => preset.up,
+            Up::Y => UpAxis::Y,
+            Up::Z => UpAxis::Z,
+        };
+        let metres_per_unit = fields
+            .voxel_size_m
+            .or(preset.voxel_size_m)
+            .map_or(1.0, |wanted| wanted / file_voxel_size(volume, &maps));
+        let placement = Placement {
+            up,
+            metres_per_unit,
+        };
+        let settings = self.settings(self.render.size)?;
+        let camera = self.camera(volume, &maps, &placement, settings.size);
+        camera.view(settings.size)?;
+        let flame = FlameParams {
+            maps,
+            placement,
+            fuel: self.fuel.name,
+            soot_model: self.soot.model,
+            soot_radius_nm: self.soot.radius_nm,
+            soot_hold: self.soot.hold,
+            soot_amount: self.soot.amount,
+            smoke_amount: self.smoke.amount,
+            ambient_k: self.air.temperature_k,
+        };
+        Ok(Job {
+            volume: Arc::clone(volume),
+            flame,
+            camera,
+            settings,
+            flaws,
+            producer,
+        })
+    }
+
+    /// The render section as concrete numbers, for a picture of the given size.
+    ///
+    /// # Errors
+    /// A number is outside its range.
+    pub fn settings(&self, size: [u32; 2]) -> Result<Settings, SettingsError> {
+        let (step_voxels, wavelengths, samples_per_pixel) = self.render.quality.numbers();
+        Settings {
+            size,
+            step_voxels: self.render.step_voxels.unwrap_or(step_voxels),
+            wavelengths: self.render.wavelengths.unwrap_or(wavelengths),
+            samples_per_pixel: self.render.samples_per_pixel.unwrap_or(samples_per_pixel),
+        }
+        .validated()
+    }
+
+    /// The view section.
+    pub fn view(&self) -> ViewParams {
+        ViewParams {
+            exposure_ev: self.view.exposure_ev,
+            adaptation: self.view.adaptation,
+            curve: self.view.curve,
+        }
+    }
+
+    /// The camera set, with what is not set taken from one that frames the flame.
+    fn camera(
+        &self,
+        volume: &Volume,
+        maps: &FieldMaps,
+        placement: &Placement,
+        size: [u32; 2],
+    ) -> Camera {
+        let bounds = flame::world_bounds(volume, maps, placement);
+        let framing = Camera::framing(&bounds, f64::from(size[0]) / f64::from(size[1]));
+        let set = &self.camera;
+        Camera {
+            eye: set.eye.unwrap_or(framing.eye),
+            target: set.target.unwrap_or(framing.target),
+            up: set.up.unwrap_or(DVec3::Z),
+            fov_deg: set.fov_deg.unwrap_or(framing.fov_deg),
+        }
+    }
+
+    /// Checks every number that can be judged without a volume.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the key, its value and its range.
+    pub fn check(&self) -> Result<(), ProjectError> {
+        self.check_ranges()?;
+        self.settings(self.render.size)?;
+        Ok(())
+    }
+
+    fn check_ranges(&self) -> Result<(), ProjectError> {
+        let numbers = [
+            ("soot.radius_nm", self.soot.radius_nm, [1.0, 100.0]),
+            ("soot.amount", self.soot.amount, [0.0, 1e4]),
+            ("smoke.amount", self.smoke.amount, [0.0, 1e4]),
+            ("air.temperature_k", self.air.temperature_k, [200.0, 400.0]),
+            (
+                "camera.fov_deg",
+                self.camera.fov_deg.unwrap_or(FRAMING_FOV_DEG),
+                [0.01, 179.0],
+            ),
+            ("view.exposure_ev", self.view.exposure_ev, [-20.0, 20.0]),
+            ("view.adaptation", self.view.adaptation, [0.0, 1.0]),
+            (
+                "volume.voxel_size_m",
+                self.volume.voxel_size_m.unwrap_or(1.0),
+                [1e-6, 1e4],
+            ),
+        ];
+        match numbers
+            .into_iter()
+            .find(|(_, value, [min, max])| !(*min..=*max).contains(value))
+        {
+            Some((key, value, [min, max])) => Err(ProjectError::Range {
+                key,
+                value,
+                min,
+                max,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Edge of a voxel in the file's own units: the soot's, or the smoke's where there is no soot.
+fn file_voxel_size(volume: &Volume, maps: &FieldMaps) -> f64 {
+    [&maps.soot, &maps.smoke]
+        .into_iter()
+        .flatten()
+        .find_map(|map| volume.grid(&map.grid))
+        .map_or(1.0, |grid| {
+            grid.world_from_index().matrix3.determinant().abs().cbrt()
+        })
+}
+
+/// A preset's mapping with a person's overrides.
+fn merged(
+    volume: &Volume,
+    kind: FieldKind,
+    set: &FieldSettings,
+    base: Option<FieldMap>,
+) -> Result<Option<FieldMap>, ProjectError> {
+    if set.grid.as_deref() == Some("") {
+        return Ok(None);
+    }
+    let mut map = match (&set.grid, base) {
+        (None, None) => return Ok(None),
+        (Some(name), Some(base)) if base.grid.eq_ignore_ascii_case(name) => base,
+        // Another grid than the preset's: its numbers are in unknown units, so they stand as they are.
+        (Some(name), _) => as_it_stands(kind, name),
+        (None, Some(base)) => base,
+    };
+    if volume.grid(&map.grid).is_none() {
+        let names = volume.grids.iter().map(|grid| grid.name.as_str());
+        return Err(ProjectError::NoSuchGrid {
+            key: format!("volume.{}.grid", kind.name()),
+            hint: super::set::did_you_mean(&map.grid, names)
+                .map_or(String::new(), |name| format!("; did you mean \"{name}\"?")),
+            available: grid_names(volume),
+            name: map.grid,
+        });
+    }
+    for (target, value) in [
+        (&mut map.scale, set.scale),
+        (&mut map.offset, set.offset),
+        (&mut map.min, set.min),
+        (&mut map.max, set.max),
+    ] {
+        if let Some(value) = value {
+            *target = value;
+        }
+    }
+    let key = |part: &str| format!("volume.{}.{part}", kind.name());
+    for (part, value) in [("scale", map.scale), ("offset", map.offset)] {
+        if !value.is_finite() {
+            return Err(ProjectError::NotFinite {
+                key: key(part),
+                value,
+            });
+        }
+    }
+    // A NaN has no order: it is refused, too.
+    if map
+        .min
+        .partial_cmp(&map.max)
+        .is_none_or(std::cmp::Ordering::is_gt)
+    {
+        return Err(ProjectError::NoInterval {
+            key: key("min"),
+            min: map.min,
+            max: map.max,
+        });
+    }
+    Ok(Some(map))
+}
+
+/// The mapping of a grid whose numbers are taken as physical ones, kept to what a fire can hold.
+fn as_it_stands(kind: FieldKind, grid: &str) -> FieldMap {
+    let greatest = match kind {
+        // A hundred times a sooting flame.
+        FieldKind::Soot | FieldKind::Smoke => 1e-3,
+        FieldKind::Flame => 1.0,
+        // Hotter than any flame.
+        FieldKind::Temperature => 6000.0,
+    };
+    FieldMap::new(grid, 1.0, 0.0, 0.0, greatest)
+}
+
+fn grid_names(volume: &Volume) -> String {
+    let names: Vec<String> = volume
+        .grids
+        .iter()
+        .map(|grid| format!("\"{}\"", grid.name))
+        .collect();
+    if names.is_empty() {
+        "no grids".into()
+    } else {
+        names.join(", ")
+    }
+}

@@ -1,0 +1,15 @@
+//! All that a person can set: the scene file.
+//!
+//! A [`Project`] is plain data, written and read as TOML ([`file`]), changed key by key ([`set`]), and turned
+//! into what the floors below take: [`Project::job`] for the renderer, [`Project::view`] for the picture.
+
+pub mod file;
+pub mod job;
+pub mod set;
+pub mod settings;
+
+pub use job::{Job, ProjectError};
+pub use settings::{
+    AirSettings, CameraSettings, FieldSettings, FuelSettings, Project, Quality, RenderSettings,
+    SmokeSettings, SootSettings, ViewSettings, VolumeSettings,
+};

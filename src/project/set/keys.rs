@@ -1,0 +1,192 @@
+//! The one list of everything that can be set.
+
+/// One key of the scene file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Key {
+    /// The dotted name.
+    pub name: &'static str,
+    /// What its value must be, with unit and range.
+    pub expects: &'static str,
+    /// What it does.
+    pub meaning: &'static str,
+}
+
+const fn key(name: &'static str, expects: &'static str, meaning: &'static str) -> Key {
+    Key {
+        name,
+        expects,
+        meaning,
+    }
+}
+
+const GRID: &str = "a grid's name, or \"\" for none";
+const RAW_FACTOR: &str = "a number, physical units for one unit of the file";
+const PHYSICAL: &str = "a number in physical units";
+const POINT: &str = "three numbers in m, such as [0, -2, 0.5]";
+
+/// Everything that a scene file can hold, in its order.
+pub const KEYS: &[Key] = &[
+    key(
+        "volume.path",
+        "a path or a list of paths",
+        "the volume; the built-in flame if not set",
+    ),
+    key(
+        "volume.producer",
+        "auto, blender, embergen, houdini or physical",
+        "whose conventions the fields follow",
+    ),
+    key(
+        "volume.up",
+        "auto, y or z",
+        "the file's axis that points up",
+    ),
+    key(
+        "volume.voxel_size_m",
+        "a number of m, 1e-6 to 1e4",
+        "edge of a voxel; the file's own if not set",
+    ),
+    key(
+        "volume.soot.grid",
+        GRID,
+        "glowing soot, mapped to a volume fraction",
+    ),
+    key(
+        "volume.soot.scale",
+        RAW_FACTOR,
+        "physical = clamp(scale · raw + offset, min, max)",
+    ),
+    key("volume.soot.offset", PHYSICAL, "value of a raw zero"),
+    key("volume.soot.min", PHYSICAL, "least value"),
+    key("volume.soot.max", PHYSICAL, "greatest value"),
+    key(
+        "volume.smoke.grid",
+        GRID,
+        "cold smoke, mapped to a volume fraction",
+    ),
+    key(
+        "volume.smoke.scale",
+        RAW_FACTOR,
+        "physical = clamp(scale · raw + offset, min, max)",
+    ),
+    key("volume.smoke.offset", PHYSICAL, "value of a raw zero"),
+    key("volume.smoke.min", PHYSICAL, "least value"),
+    key("volume.smoke.max", PHYSICAL, "greatest value"),
+    key(
+        "volume.flame.grid",
+        GRID,
+        "progress of the reaction, 0 to 1",
+    ),
+    key(
+        "volume.flame.scale",
+        RAW_FACTOR,
+        "physical = clamp(scale · raw + offset, min, max)",
+    ),
+    key("volume.flame.offset", PHYSICAL, "value of a raw zero"),
+    key("volume.flame.min", PHYSICAL, "least value"),
+    key("volume.flame.max", PHYSICAL, "greatest value"),
+    key("volume.temperature.grid", GRID, "temperature, mapped to K"),
+    key(
+        "volume.temperature.scale",
+        RAW_FACTOR,
+        "physical = clamp(scale · raw + offset, min, max)",
+    ),
+    key("volume.temperature.offset", PHYSICAL, "value of a raw zero"),
+    key("volume.temperature.min", PHYSICAL, "least value"),
+    key("volume.temperature.max", PHYSICAL, "greatest value"),
+    key(
+        "fuel.name",
+        "propane or acetylene",
+        "what burns: whose soot it is",
+    ),
+    key(
+        "soot.radius_nm",
+        "a number of nm, 1 to 100",
+        "radius of a primary particle",
+    ),
+    key(
+        "soot.amount",
+        "a number, 0 to 10000",
+        "multiplies the soot field",
+    ),
+    key(
+        "soot.model",
+        "chang, dalzell-sarofim or hottel-broughton",
+        "how absorption depends on wavelength",
+    ),
+    key(
+        "soot.hold",
+        "number or volume",
+        "what stays when the radius changes",
+    ),
+    key(
+        "smoke.amount",
+        "a number, 0 to 10000",
+        "multiplies the smoke field",
+    ),
+    key(
+        "air.temperature_k",
+        "a number of K, 200 to 400",
+        "temperature where the volume has none",
+    ),
+    key(
+        "camera.eye",
+        POINT,
+        "position of the eye; framed if not set",
+    ),
+    key(
+        "camera.target",
+        POINT,
+        "the point in the middle of the picture; framed if not set",
+    ),
+    key(
+        "camera.up",
+        "three numbers, such as [0, 0, 1]",
+        "what is up in the picture",
+    ),
+    key(
+        "camera.fov_deg",
+        "a number of degrees, 0.01 to 179",
+        "vertical field of view",
+    ),
+    key(
+        "render.size",
+        "two whole numbers of pixels, such as [1280, 720]",
+        "width and height of a still",
+    ),
+    key(
+        "render.quality",
+        "draft, look, final or reference",
+        "a preset of the three numbers below",
+    ),
+    key(
+        "render.step_voxels",
+        "a number of voxels, 0.01 to 64",
+        "length of a step; overrides quality",
+    ),
+    key(
+        "render.wavelengths",
+        "4, 6 or 8 (fitted), 16, 32 or 64 (plain)",
+        "how many; overrides quality",
+    ),
+    key(
+        "render.samples_per_pixel",
+        "a whole number, 1 to 4096",
+        "1 is the pixel's centre; overrides quality",
+    ),
+    key(
+        "view.exposure_ev",
+        "a number of stops, -20 to 20",
+        "above the automatic exposure",
+    ),
+    key(
+        "view.adaptation",
+        "a number, 0 to 1",
+        "how far the eye has adapted to the fire's white",
+    ),
+    key(
+        "view.curve",
+        "filmic or linear",
+        "how light becomes display values",
+    ),
+];

@@ -1,0 +1,321 @@
+//! The sections of a scene file with their defaults and ranges.
+//!
+//! `None` means *chosen from the file or the scene*: a producer's preset, a camera that frames the flame, the
+//! numbers of a quality.
+
+use std::path::PathBuf;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::colour::display::Curve;
+use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
+use crate::scene::{Fuel, WavelengthSet};
+use crate::volume::Producer;
+
+/// A whole scene file.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Project {
+    /// Which files, and what their fields mean.
+    pub volume: VolumeSettings,
+    /// What burns.
+    pub fuel: FuelSettings,
+    /// The soot's particles and amount.
+    pub soot: SootSettings,
+    /// Cold smoke.
+    pub smoke: SmokeSettings,
+    /// The air around.
+    pub air: AirSettings,
+    /// Where the eye is.
+    pub camera: CameraSettings,
+    /// How accurate, and how large.
+    pub render: RenderSettings,
+    /// How the light becomes a picture.
+    pub view: ViewSettings,
+}
+
+/// `[volume]`
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct VolumeSettings {
+    /// One path or a list; empty for the built-in flame. In a scene file relative to that file.
+    #[serde(
+        with = "super::file::one_or_many",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    pub path: Vec<PathBuf>,
+    /// Whose conventions the fields follow; auto: recognised from the file.
+    pub producer: Producer,
+    /// Which axis of the file points up.
+    pub up: Up,
+    /// Edge of a voxel in metres; `None`: the file's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub voxel_size_m: Option<f64>,
+    /// Overrides of the preset, field by field.
+    #[serde(skip_serializing_if = "FieldSettings::is_unset")]
+    pub soot: FieldSettings,
+    /// Overrides of the preset's smoke.
+    #[serde(skip_serializing_if = "FieldSettings::is_unset")]
+    pub smoke: FieldSettings,
+    /// Overrides of the preset's flame.
+    #[serde(skip_serializing_if = "FieldSettings::is_unset")]
+    pub flame: FieldSettings,
+    /// Overrides of the preset's temperature.
+    #[serde(skip_serializing_if = "FieldSettings::is_unset")]
+    pub temperature: FieldSettings,
+}
+
+/// Which axis of the file points up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Up {
+    /// As the producer writes it.
+    #[default]
+    Auto,
+    /// y.
+    Y,
+    /// z.
+    Z,
+}
+
+/// Overrides of one field's mapping, physical = clamp(scale · raw + offset, min, max). What is `None` comes from
+/// the producer's preset.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FieldSettings {
+    /// Name of the grid; empty switches the field off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grid: Option<String>,
+    /// Physical units for one unit of the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f64>,
+    /// Physical value of a raw zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub offset: Option<f64>,
+    /// Least physical value.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min: Option<f64>,
+    /// Greatest physical value.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max: Option<f64>,
+}
+
+impl FieldSettings {
+    /// Whether the preset's mapping stands as it is.
+    pub fn is_unset(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// `[fuel]`
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FuelSettings {
+    /// What burns.
+    pub name: Fuel,
+}
+
+/// `[soot]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SootSettings {
+    /// Radius of a primary particle, nm, 1 to 100.
+    pub radius_nm: f64,
+    /// Multiplies the soot field, 0 to 10000.
+    pub amount: f64,
+    /// How absorption depends on wavelength.
+    pub model: SootModel,
+    /// What stays when the radius changes: the number of particles or the volume of soot.
+    pub hold: Hold,
+}
+
+impl Default for SootSettings {
+    fn default() -> Self {
+        Self {
+            radius_nm: REFERENCE_RADIUS_NM,
+            amount: 1.0,
+            model: SootModel::default(),
+            hold: Hold::default(),
+        }
+    }
+}
+
+/// `[smoke]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SmokeSettings {
+    /// Multiplies the smoke field, 0 to 10000.
+    pub amount: f64,
+}
+
+impl Default for SmokeSettings {
+    fn default() -> Self {
+        Self { amount: 1.0 }
+    }
+}
+
+/// `[air]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct AirSettings {
+    /// Temperature of the air, K, 200 to 400: where the volume has no temperature field.
+    pub temperature_k: f64,
+}
+
+impl Default for AirSettings {
+    fn default() -> Self {
+        Self {
+            temperature_k: 300.0,
+        }
+    }
+}
+
+/// `[camera]`
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CameraSettings {
+    /// Position of the eye, m; with `target`. `None`: frames the flame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye: Option<DVec3>,
+    /// The point in the middle of the picture, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<DVec3>,
+    /// What is up in the picture; z if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up: Option<DVec3>,
+    /// Vertical field of view, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fov_deg: Option<f64>,
+}
+
+/// `[render]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RenderSettings {
+    /// Width and height of a still, pixels.
+    pub size: [u32; 2],
+    /// A preset of the numbers below; an explicit number overrides it.
+    pub quality: Quality,
+    /// Length of a step, voxels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_voxels: Option<f64>,
+    /// How many wavelengths: 4, 6, 8 (fitted to the soot), 16, 32, 64 (plain).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wavelengths: Option<WavelengthSet>,
+    /// Rays for each pixel; 1 is the pixel's centre.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples_per_pixel: Option<u32>,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        Self {
+            size: [1280, 720],
+            quality: Quality::default(),
+            step_voxels: None,
+            wavelengths: None,
+            samples_per_pixel: None,
+        }
+    }
+}
+
+/// Fixed presets of step, wavelengths and rays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quality {
+    /// For blocking out: steps of two voxels, 4 wavelengths, one ray.
+    Draft,
+    /// For looking: steps of one voxel, 6 wavelengths, one ray.
+    #[default]
+    Look,
+    /// For keeping: half-voxel steps, 8 wavelengths, 4 rays.
+    Final,
+    /// For measuring against: quarter-voxel steps, 64 wavelengths, 16 rays.
+    Reference,
+}
+
+impl Quality {
+    /// Every preset, cheapest first.
+    pub const ALL: [Self; 4] = [Self::Draft, Self::Look, Self::Final, Self::Reference];
+
+    /// The name in the scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Draft => "draft",
+            Self::Look => "look",
+            Self::Final => "final",
+            Self::Reference => "reference",
+        }
+    }
+
+    /// Step in voxels, wavelengths and rays for each pixel.
+    pub fn numbers(self) -> (f64, WavelengthSet, u32) {
+        match self {
+            Self::Draft => (2.0, WavelengthSet::Fitted(4), 1),
+            Self::Look => (1.0, WavelengthSet::Fitted(6), 1),
+            Self::Final => (0.5, WavelengthSet::Fitted(8), 4),
+            Self::Reference => (0.25, WavelengthSet::Plain(64), 16),
+        }
+    }
+}
+
+/// `[view]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ViewSettings {
+    /// Stops above the automatic exposure, −20 to 20.
+    pub exposure_ev: f64,
+    /// Degree to which the eye has adapted to the fire's white, 0 to 1.
+    pub adaptation: f64,
+    /// How light becomes display values.
+    pub curve: Curve,
+}
+
+impl Default for ViewSettings {
+    fn default() -> Self {
+        Self {
+            exposure_ev: 0.0,
+            adaptation: 0.2,
+            curve: Curve::default(),
+        }
+    }
+}
+
+/// A project whose every key is set: what lists of keys are held against.
+#[cfg(test)]
+pub(super) fn everything_set() -> Project {
+    let field = |grid: &str| FieldSettings {
+        grid: Some(grid.to_owned()),
+        scale: Some(1e-7),
+        offset: Some(-0.1),
+        min: Some(0.0),
+        max: Some(f64::INFINITY),
+    };
+    Project {
+        volume: VolumeSettings {
+            path: vec![PathBuf::from("a.vdb"), PathBuf::from("b \"quoted\".vdb")],
+            producer: Producer::Physical,
+            up: Up::Y,
+            voxel_size_m: Some(0.1 + 0.2),
+            soot: field("soot"),
+            smoke: field(""),
+            flame: field("flames"),
+            temperature: field("1"),
+        },
+        camera: CameraSettings {
+            eye: Some(DVec3::new(0.1, -2.0, 1e-300)),
+            target: Some(DVec3::ZERO),
+            up: Some(DVec3::Z),
+            fov_deg: Some(40.0),
+        },
+        render: RenderSettings {
+            size: [640, 360],
+            quality: Quality::Final,
+            step_voxels: Some(0.5),
+            wavelengths: Some(WavelengthSet::Fitted(8)),
+            samples_per_pixel: Some(4),
+        },
+        ..Project::default()
+    }
+}
