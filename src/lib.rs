@@ -36,6 +36,7 @@
 //! * **flaw**: what could not be faithful, carried with the frame and told to the person.
 
 pub mod colour;
+pub mod engine;
 pub mod math;
 pub mod physics;
 pub mod project;

@@ -1,0 +1,278 @@
+//! Background rendering for the window: [`Engine::submit`] a job, [`Engine::drain`] its tiles.
+//!
+//! The latest job wins. A generation is an atomic number that a submit raises: workers ask for it once for each
+//! row of packets, and publishing asks again inside the lock, so that no tile of an old picture ever lands in a
+//! new one. Nothing queues up: a submit replaces the job that waits and throws away what was not drained.
+//!
+//! The engine has a thread of its own, which packs media and runs the passes on its own rayon pool; the window
+//! never waits for a lock (see [`Engine::drain`]). A worker's panic becomes an [`Update::Failed`]; the next job
+//! runs as if nothing had happened.
+
+pub mod picture;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use rayon::ThreadPool;
+
+pub use picture::Picture;
+
+use crate::project::Job;
+use crate::render::{Cancel, Pass, Plan, Tile, pass, render_pass};
+use crate::scene::Scene;
+
+/// Which submit something belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Generation(u64);
+
+/// News from the engine.
+#[derive(Debug)]
+pub struct Update {
+    /// The submit that it belongs to.
+    pub generation: Generation,
+    /// What happened.
+    pub news: News,
+}
+
+/// What happened to a job.
+#[derive(Debug)]
+pub enum News {
+    /// The medium is packed, the passes begin.
+    Started {
+        /// The passes to come.
+        passes: Vec<Pass>,
+        /// Size of the picture in pixels.
+        size: [u32; 2],
+        /// Time the packing and baking took.
+        bake: Duration,
+    },
+    /// A tile of the running pass.
+    Tile(Tile),
+    /// A pass is whole.
+    PassDone {
+        /// Its index among the passes.
+        index: usize,
+        /// Time since the submit.
+        since_submit: Duration,
+        /// Time the pass took.
+        took: Duration,
+    },
+    /// All passes are whole.
+    Finished,
+    /// A worker failed; the words say how.
+    Failed(String),
+}
+
+/// Renders in the background. Dropping it cancels and joins.
+pub struct Engine {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+}
+
+struct Shared {
+    /// Raised by each submit; what a [`Cancel`] compares with.
+    current: Arc<AtomicU64>,
+    stop: AtomicBool,
+    waiting: Mutex<Option<(Generation, Job, Instant)>>,
+    arrived: Condvar,
+    outbox: Mutex<Vec<Update>>,
+    wake: Box<dyn Fn() + Send + Sync>,
+}
+
+/// A poisoned lock guards data that is whole at every moment: a panic between two pushes leaves a valid list.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Engine {
+    /// An engine with a pool of `threads` workers (at least one), that calls `wake` from any thread when there is
+    /// something to drain.
+    ///
+    /// # Errors
+    /// The system gives no threads.
+    pub fn new(threads: usize, wake: Box<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.max(1))
+            .thread_name(|i| format!("sootlight-worker-{i}"))
+            .build()
+            .map_err(std::io::Error::other)?;
+        let shared = Arc::new(Shared {
+            current: Arc::default(),
+            stop: AtomicBool::new(false),
+            waiting: Mutex::new(None),
+            arrived: Condvar::new(),
+            outbox: Mutex::new(Vec::new()),
+            wake,
+        });
+        let thread = std::thread::Builder::new()
+            .name("sootlight-engine".into())
+            .spawn({
+                let shared = Arc::clone(&shared);
+                move || shared.serve(&pool)
+            })?;
+        Ok(Self {
+            shared,
+            thread: Some(thread),
+        })
+    }
+
+    /// Workers for a window on this machine: every core, but for one where there are more than two, so that the
+    /// window keeps drawing.
+    pub fn threads_beside_a_window() -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        if cores > 2 { cores - 1 } else { cores }
+    }
+
+    /// Renders this job from now on; whatever was running, waiting or not yet drained is forgotten.
+    pub fn submit(&self, job: Job) -> Generation {
+        let mut waiting = lock(&self.shared.waiting);
+        let generation = self.shared.next_generation();
+        *waiting = Some((generation, job, Instant::now()));
+        drop(waiting);
+        self.shared.arrived.notify_one();
+        generation
+    }
+
+    /// Stops what runs, without another job.
+    pub fn cancel(&self) {
+        let mut waiting = lock(&self.shared.waiting);
+        self.shared.next_generation();
+        *waiting = None;
+    }
+
+    /// Everything published since the last drain, oldest first. Never waits: empty if a worker is publishing
+    /// at this very moment (it wakes the window afterwards).
+    pub fn drain(&self) -> Vec<Update> {
+        match self.shared.outbox.try_lock() {
+            Ok(mut outbox) => std::mem::take(&mut *outbox),
+            Err(TryLockError::Poisoned(outbox)) => std::mem::take(&mut *outbox.into_inner()),
+            Err(TryLockError::WouldBlock) => Vec::new(),
+        }
+    }
+}
+
+impl Drop for Engine {
+    fn drop(&mut self) {
+        self.shared.stop.store(true, Ordering::SeqCst);
+        self.cancel();
+        self.shared.arrived.notify_one();
+        if let Some(thread) = self.thread.take() {
+            // A panic of the thread was reported when it happened.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Shared {
+    /// Ends the current generation: nothing of it is published from here on, and what was is thrown away.
+    fn next_generation(&self) -> Generation {
+        let mut outbox = lock(&self.outbox);
+        let generation = Generation(self.current.fetch_add(1, Ordering::SeqCst) + 1);
+        let stale = std::mem::take(&mut *outbox);
+        drop(outbox);
+        // Tiles are freed outside the lock, so that no worker waits for it.
+        drop(stale);
+        generation
+    }
+
+    /// The engine's thread: waits for jobs until told to stop.
+    fn serve(&self, pool: &ThreadPool) {
+        let mut before: Option<Scene> = None;
+        while let Some((generation, job, submitted)) = self.next() {
+            let outcome = catch_unwind(AssertUnwindSafe(|| {
+                pool.install(|| self.render(generation, &job, submitted, before.as_ref()))
+            }));
+            match outcome {
+                Ok(scene) => before = Some(scene),
+                Err(panic) => {
+                    before = None;
+                    self.publish(generation, News::Failed(words_of(panic.as_ref())));
+                }
+            }
+        }
+    }
+
+    /// The next job, as soon as there is one; `None` when the engine is dropped.
+    fn next(&self) -> Option<(Generation, Job, Instant)> {
+        let mut waiting = lock(&self.waiting);
+        loop {
+            if self.stop.load(Ordering::SeqCst) {
+                return None;
+            }
+            if let Some(next) = waiting.take() {
+                return Some(next);
+            }
+            waiting = self
+                .arrived
+                .wait(waiting)
+                .unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Packs the medium, then runs pass after pass until done or overtaken. Returns the scene for reuse.
+    fn render(
+        &self,
+        generation: Generation,
+        job: &Job,
+        submitted: Instant,
+        before: Option<&Scene>,
+    ) -> Scene {
+        let cancel = Cancel::when_passed(Arc::clone(&self.current), generation.0);
+        let begun = Instant::now();
+        let scene = job.scene(before);
+        let plan = Plan::new(&scene, &job.settings);
+        let passes = pass::ladder(&job.settings, pass::Audience::Window);
+        let started = News::Started {
+            passes: passes.clone(),
+            size: job.settings.size,
+            bake: begun.elapsed(),
+        };
+        self.publish(generation, started);
+        for (index, pass) in passes.iter().enumerate() {
+            let begun = Instant::now();
+            let whole = render_pass(&scene, &plan, pass, &cancel, &|tile| {
+                self.publish(generation, News::Tile(tile));
+            });
+            if !whole || cancel.is_cancelled() {
+                return scene;
+            }
+            let took = begun.elapsed();
+            self.publish(
+                generation,
+                News::PassDone {
+                    index,
+                    since_submit: submitted.elapsed(),
+                    took,
+                },
+            );
+        }
+        self.publish(generation, News::Finished);
+        scene
+    }
+
+    /// Adds to the outbox what still belongs to the current job, and wakes the window.
+    fn publish(&self, generation: Generation, news: News) {
+        {
+            let mut outbox = lock(&self.outbox);
+            if self.current.load(Ordering::SeqCst) != generation.0 {
+                return;
+            }
+            outbox.push(Update { generation, news });
+        }
+        (self.wake)();
+    }
+}
+
+fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
+    let words = panic
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    format!(
+        "rendering failed: {}. The picture before stays; change a setting to try again",
+        words.unwrap_or("no reason given")
+    )
+}
