@@ -37,6 +37,7 @@
 
 pub mod colour;
 pub mod engine;
+pub mod export;
 pub mod math;
 pub mod physics;
 pub mod project;
