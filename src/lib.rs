@@ -35,6 +35,8 @@
 //! * **film**: the only place where a spectrum becomes three numbers.
 //! * **flaw**: what could not be faithful, carried with the frame and told to the person.
 
+#[cfg(feature = "window")]
+pub mod app;
 pub mod colour;
 pub mod engine;
 pub mod export;

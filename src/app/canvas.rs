@@ -1,0 +1,292 @@
+//! The picture on the screen: the film as a float texture, developed by the graphics card.
+//!
+//! Exposure, adaptation and curve change a uniform and a table of a thousand points, so a view of any size follows
+//! the slider at once and no ray is marched again. The film is uploaded whole, at most once a frame.
+
+use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, wgpu};
+use egui::{Color32, Pos2, Rect, Sense, Ui};
+
+use crate::colour::display::{BakedView, TABLE_FIRST_STOP, TABLE_LAST_STOP, TABLE_LEN, View};
+use crate::engine::Picture;
+use crate::render::Film;
+
+/// Longest side of a texture that every graphics card takes.
+const LONGEST_SIDE: u32 = 8192;
+
+/// Shows a picture in the space that is left for it.
+pub(super) struct Canvas {
+    /// `None` where nothing is drawn: a test without a graphics card.
+    state: Option<RenderState>,
+    /// Which film and which view the graphics card has.
+    uploaded: Option<u64>,
+    view: Option<View>,
+}
+
+impl Canvas {
+    /// A canvas that draws with egui's own device.
+    pub(super) fn new(state: Option<RenderState>) -> Self {
+        if let Some(state) = &state {
+            let display = Display::new(&state.device, state.target_format);
+            state.renderer.write().callback_resources.insert(display);
+        }
+        Self {
+            state,
+            uploaded: None,
+            view: None,
+        }
+    }
+
+    /// Draws the picture over all that is left of `ui`, stretched if it is still of an older size. Returns the
+    /// size in pixels that it should have.
+    pub(super) fn show(&mut self, ui: &mut Ui, picture: &Picture, view: &View) -> [u32; 2] {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
+        let (rect, size) = snapped(rect, ui.pixels_per_point());
+        ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
+        let Some(state) = &self.state else {
+            return size;
+        };
+        {
+            let mut renderer = state.renderer.write();
+            if let Some(display) = renderer.callback_resources.get_mut::<Display>() {
+                if self.uploaded != Some(picture.version) {
+                    display.upload(&state.device, &state.queue, picture.film());
+                    self.uploaded = Some(picture.version);
+                }
+                if self.view != Some(*view) {
+                    display.set_view(&state.queue, &BakedView::new(view));
+                    self.view = Some(*view);
+                }
+            }
+        }
+        ui.painter()
+            .add(egui_wgpu::Callback::new_paint_callback(rect, Paint));
+        size
+    }
+}
+
+/// A rectangle moved to whole pixels, and how many they are.
+fn snapped(rect: Rect, pixels_per_point: f32) -> (Rect, [u32; 2]) {
+    let whole = |at: Pos2| [at.x, at.y].map(|v| (v * pixels_per_point).round());
+    let (low, high) = (whole(rect.min), whole(rect.max));
+    let size = [0, 1].map(|axis| ((high[axis] - low[axis]) as u32).clamp(1, LONGEST_SIDE));
+    let point = |at: [f32; 2]| Pos2::new(at[0], at[1]) / pixels_per_point;
+    (Rect::from_min_max(point(low), point(high)), size)
+}
+
+/// Draws the [`Display`] that waits among egui's resources.
+struct Paint;
+
+impl CallbackTrait for Paint {
+    fn paint(
+        &self,
+        _: egui::PaintCallbackInfo,
+        pass: &mut wgpu::RenderPass<'static>,
+        resources: &CallbackResources,
+    ) {
+        if let Some(display) = resources.get::<Display>() {
+            display.paint(pass);
+        }
+    }
+}
+
+/// The display shader with the film and the view it works on.
+pub struct Display {
+    pipeline: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+    group: wgpu::BindGroup,
+    uniform: wgpu::Buffer,
+    film: wgpu::Texture,
+    curves: wgpu::Texture,
+    target_encodes: bool,
+    staging: Vec<[f32; 4]>,
+}
+
+/// Four numbers for each row of `View` in the shader.
+const UNIFORM_ROWS: usize = 5;
+
+impl Display {
+    /// A display that draws to targets of the given format.
+    pub fn new(device: &wgpu::Device, target: wgpu::TextureFormat) -> Self {
+        let texture = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let uniform = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        };
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("display"),
+            entries: &[entry(0, uniform), entry(1, texture), entry(2, texture)],
+        });
+        let pipeline = pipeline(device, &layout, target);
+        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("view"),
+            size: (UNIFORM_ROWS * 16) as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let film = float_texture(device, "film", [1, 1]);
+        let curves = float_texture(device, "curves", [TABLE_LEN as u32, 1]);
+        let group = bind(device, &layout, &uniform, &film, &curves);
+        let target_encodes = target.is_srgb();
+        Self {
+            pipeline,
+            layout,
+            group,
+            uniform,
+            film,
+            curves,
+            target_encodes,
+            staging: Vec::new(),
+        }
+    }
+
+    /// Brings a film to the graphics card in one write. Its sides must be within the device's limit.
+    pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, film: &Film) {
+        let size = film.size();
+        if [self.film.width(), self.film.height()] != size {
+            self.film = float_texture(device, "film", size);
+            self.group = bind(
+                device,
+                &self.layout,
+                &self.uniform,
+                &self.film,
+                &self.curves,
+            );
+        }
+        self.staging.clear();
+        self.staging.extend(film.pixels().iter().map(|pixel| {
+            let [x, y, z] = pixel.xyz;
+            [x, y, z, pixel.opacity[1]]
+        }));
+        write(queue, &self.film, &self.staging);
+    }
+
+    /// Develops with this view from now on.
+    pub fn set_view(&mut self, queue: &wgpu::Queue, view: &BakedView) {
+        let [mut r, g, b] = view.rgb_from_xyz.map(|[x, y, z]| [x, y, z, 0.0]);
+        r[3] = view.softness;
+        let [lr, lg, lb] = view.luminance;
+        let last = (TABLE_LEN - 1) as f32;
+        let stops = TABLE_LAST_STOP - TABLE_FIRST_STOP;
+        let table = [
+            TABLE_FIRST_STOP,
+            last / stops,
+            last,
+            f32::from(u8::from(self.target_encodes)),
+        ];
+        let rows: [[f32; 4]; UNIFORM_ROWS] = [r, g, b, [lr, lg, lb, view.per_channel], table];
+        queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&rows));
+        let points = view.curve.iter().zip(&view.whiteness);
+        let points: Vec<[f32; 4]> = points.map(|(&y, &w)| [y, w, 0.0, 0.0]).collect();
+        write(queue, &self.curves, &points);
+    }
+
+    /// Draws over the whole viewport of a pass.
+    pub fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    target: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("display"),
+        source: wgpu::ShaderSource::Wgsl(include_str!("display.wgsl").into()),
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("display"),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("display"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("corner"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("pixel"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(target.into())],
+        }),
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn float_texture(device: &wgpu::Device, label: &str, [width, height]: [u32; 2]) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba32Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+fn bind(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    uniform: &wgpu::Buffer,
+    film: &wgpu::Texture,
+    curves: &wgpu::Texture,
+) -> wgpu::BindGroup {
+    let view =
+        |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let (film, curves) = (view(film), view(curves));
+    let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("display"),
+        layout,
+        entries: &[
+            entry(0, uniform.as_entire_binding()),
+            entry(1, wgpu::BindingResource::TextureView(&film)),
+            entry(2, wgpu::BindingResource::TextureView(&curves)),
+        ],
+    })
+}
+
+/// Fills a whole texture; there must be as many texels as it has.
+fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, texels: &[[f32; 4]]) {
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(16 * texture.width()),
+        rows_per_image: None,
+    };
+    queue.write_texture(
+        texture.as_image_copy(),
+        bytemuck::cast_slice(texels),
+        layout,
+        texture.size(),
+    );
+}

@@ -1,0 +1,242 @@
+//! Opening files without holding up the window: each load and each dialog runs on a named thread of its own.
+//!
+//! The newest request wins; what an older one brings is dropped. A failure is a sentence, never a panic.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
+
+use crate::volume::{self, Limits, Volume, VolumeError};
+
+/// A dialog that closes sooner was never seen by anybody.
+const TOO_QUICK_FOR_A_PERSON: Duration = Duration::from_millis(400);
+
+/// What to open.
+#[derive(Debug, Clone)]
+pub(super) enum Request {
+    /// The flame that needs no file.
+    BuiltIn,
+    /// What the project names: settings stay as they are.
+    Project(Vec<PathBuf>),
+    /// These files as one volume, instead of what is open.
+    Files(Vec<PathBuf>),
+    /// A file that may bring the missing field of the open volume, or else replaces it.
+    Partner(Arc<Volume>, PathBuf),
+}
+
+/// What became of a request.
+#[derive(Debug)]
+pub(super) enum Outcome {
+    /// A volume for the project as it stands.
+    Shown(Arc<Volume>),
+    /// A volume that takes the place of the open one.
+    Replaced(Arc<Volume>),
+    /// Nothing was opened, and why.
+    Failed {
+        /// What was asked for.
+        request: Request,
+        /// Why not, in words.
+        words: String,
+    },
+    /// Somebody chose files in the dialog.
+    Chosen(Vec<PathBuf>),
+    /// The dialog never appeared.
+    NoDialog,
+}
+
+/// Loads in the background.
+pub(super) struct Loader {
+    sender: Sender<(u64, Outcome)>,
+    receiver: Receiver<(u64, Outcome)>,
+    newest: u64,
+    loading: Option<String>,
+    dialog_open: bool,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl Loader {
+    /// A loader that calls `wake`, from any thread, when there is something to poll.
+    pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+        let (sender, receiver) = channel();
+        Self {
+            sender,
+            receiver,
+            newest: 0,
+            loading: None,
+            dialog_open: false,
+            wake,
+        }
+    }
+
+    /// What is being loaded, for a person.
+    pub(super) fn loading(&self) -> Option<&str> {
+        self.loading.as_deref()
+    }
+
+    /// Begins to load; an older load no longer counts.
+    pub(super) fn begin(&mut self, request: Request) {
+        self.newest += 1;
+        let ticket = self.newest;
+        self.loading = Some(request.words());
+        let (sender, wake) = (self.sender.clone(), Arc::clone(&self.wake));
+        let lost = request.clone();
+        let spawned = std::thread::Builder::new()
+            .name("sootlight-loader".into())
+            .spawn(move || {
+                let again = request.clone();
+                let outcome =
+                    catch_unwind(AssertUnwindSafe(|| load(request))).unwrap_or_else(|_| {
+                        let words = format!(
+                            "{}: reading it failed unexpectedly; nothing was opened",
+                            again.words()
+                        );
+                        Outcome::Failed {
+                            request: again,
+                            words,
+                        }
+                    });
+                // The window may be gone.
+                let _ = sender.send((ticket, outcome));
+                wake();
+            });
+        if let Err(error) = spawned {
+            let words = format!("cannot start a thread to read files: {error}");
+            let _ = self.sender.send((
+                ticket,
+                Outcome::Failed {
+                    request: lost,
+                    words,
+                },
+            ));
+        }
+    }
+
+    /// Asks for files with the desktop's own dialog.
+    pub(super) fn ask(&mut self) {
+        if self.dialog_open {
+            return;
+        }
+        let (sender, wake) = (self.sender.clone(), Arc::clone(&self.wake));
+        let spawned = std::thread::Builder::new()
+            .name("sootlight-dialog".into())
+            .spawn(move || {
+                let begun = Instant::now();
+                let chosen = catch_unwind(|| {
+                    rfd::FileDialog::new()
+                        .set_title("Open a volume")
+                        .pick_files()
+                });
+                let outcome = match chosen {
+                    Ok(Some(paths)) => Outcome::Chosen(paths),
+                    Ok(None) if begun.elapsed() > TOO_QUICK_FOR_A_PERSON => {
+                        Outcome::Chosen(Vec::new())
+                    }
+                    Ok(None) | Err(_) => Outcome::NoDialog,
+                };
+                let _ = sender.send((0, outcome));
+                wake();
+            });
+        match spawned {
+            Ok(_) => self.dialog_open = true,
+            Err(_) => drop(self.sender.send((0, Outcome::NoDialog))),
+        }
+    }
+
+    /// The next outcome, if there is one.
+    pub(super) fn poll(&mut self) -> Option<Outcome> {
+        while let Ok((ticket, outcome)) = self.receiver.try_recv() {
+            if ticket == 0 {
+                self.dialog_open = false;
+                return Some(outcome);
+            }
+            if ticket == self.newest {
+                self.loading = None;
+                return Some(outcome);
+            }
+        }
+        None
+    }
+}
+
+impl Request {
+    fn words(&self) -> String {
+        let names = |paths: &[PathBuf]| {
+            let name = |path: &PathBuf| path.display().to_string();
+            paths.iter().map(name).collect::<Vec<_>>().join(", ")
+        };
+        match self {
+            Self::BuiltIn => "the built-in flame".to_owned(),
+            Self::Project(paths) | Self::Files(paths) => names(paths),
+            Self::Partner(_, path) => path.display().to_string(),
+        }
+    }
+}
+
+fn load(request: Request) -> Outcome {
+    let limits = Limits::default();
+    let loaded = match &request {
+        Request::BuiltIn => Ok(volume::procedural::torch()),
+        Request::Project(paths) | Request::Files(paths) => volume::open(paths, &limits),
+        Request::Partner(open, path) => open_partner(open, path, &limits),
+    };
+    match (loaded, request) {
+        (Ok(volume), Request::BuiltIn | Request::Project(_)) => Outcome::Shown(Arc::new(volume)),
+        (Ok(volume), _) => Outcome::Replaced(Arc::new(volume)),
+        (Err(error), request) => Outcome::Failed {
+            request,
+            words: error.to_string(),
+        },
+    }
+}
+
+/// The open volume with the file's field; or the file alone, where it has the same field.
+fn open_partner(open: &Volume, path: &Path, limits: &Limits) -> Result<Volume, VolumeError> {
+    match open.with_file(path, limits) {
+        Ok(both) => Ok(both),
+        Err(together) => {
+            let alone = volume::open(&[path.to_owned()], limits)?;
+            let partner = matches!(together, VolumeError::DimensionsDiffer { .. })
+                && alone
+                    .grids
+                    .iter()
+                    .all(|grid| open.grid(&grid.name).is_none());
+            // A temperature of other dimensions was meant for this density, and cannot serve it.
+            if partner { Err(together) } else { Ok(alone) }
+        }
+    }
+}
+
+/// What a person typed or pasted, as paths: one for each line, quotes and a `file://` taken off.
+pub(super) fn paths_of(text: &str) -> Vec<PathBuf> {
+    text.lines()
+        .map(|line| line.trim().trim_matches(['"', '\'']))
+        .map(|line| line.strip_prefix("file://").unwrap_or(line))
+        .filter(|line| !line.is_empty())
+        .map(PathBuf::from)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_may_be_quoted_or_an_address() {
+        let paths = paths_of(" \"/a b/c.vdb\" \nfile:///d.vdb\n\n");
+        assert_eq!(
+            paths,
+            [PathBuf::from("/a b/c.vdb"), PathBuf::from("/d.vdb")]
+        );
+    }
+
+    #[test]
+    fn an_older_load_does_not_win() {
+        let mut loader = Loader::new(Arc::new(|| {}));
+        loader.newest = 2;
+        let late = Outcome::Chosen(vec![PathBuf::from("old")]);
+        assert!(loader.sender.send((1, late)).is_ok());
+        assert!(loader.poll().is_none());
+    }
+}

@@ -1,0 +1,308 @@
+//! The window: an [`eframe::App`] whose `logic()` takes in what the background brought and whose `ui()` draws.
+//!
+//! Panels change the [`Document`]; whatever else they want they ask for with a command. Once all panels had their
+//! say, [`App`] compares the job that the document stands for with the one it submitted, and submits what differs:
+//! the only place that does. Exposure, adaptation and curve are no part of a job; they only change the view.
+
+mod canvas;
+mod document;
+mod files;
+mod meter;
+mod panels;
+mod start;
+mod theme;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+pub use canvas::Display;
+pub use document::{Document, FieldRow};
+pub use start::{AppError, run};
+
+use self::canvas::Canvas;
+use self::files::{Loader, Outcome, Request};
+use self::meter::Meter;
+use self::panels::{Command, Panels};
+use crate::colour::display::View;
+use crate::engine::{Engine, Generation, Picture};
+use crate::project::{Job, Project};
+
+/// While tiles come in, the picture is drawn this often: each drawing takes time from the workers where the
+/// processor is also the graphics card.
+const FRAME: Duration = Duration::from_millis(30);
+
+/// The window.
+pub struct App {
+    document: Document,
+    engine: Engine,
+    picture: Picture,
+    meter: Meter,
+    canvas: Canvas,
+    /// Size of the canvas in pixels, once it was laid out.
+    canvas_size: Option<[u32; 2]>,
+    submitted: Option<Submitted>,
+    loader: Loader,
+    panels: Panels,
+    /// What went wrong last, until it is dismissed.
+    notice: Option<String>,
+    title: String,
+}
+
+/// The job that the engine works on.
+struct Submitted {
+    job: Job,
+    generation: Generation,
+    at: Instant,
+}
+
+impl App {
+    /// A window on a project; begins to load its volume. Without a graphics card (in a test) everything works but
+    /// the picture is not drawn.
+    ///
+    /// # Errors
+    /// The system gives no threads.
+    pub fn new(creation: &eframe::CreationContext<'_>, project: Project) -> Result<Self, AppError> {
+        let ctx = &creation.egui_ctx;
+        theme::put_on(ctx);
+        let tile_wake = ctx.clone();
+        let tile_wake = Box::new(move || tile_wake.request_repaint_after(FRAME));
+        let engine =
+            Engine::new(Engine::threads_beside_a_window(), tile_wake).map_err(AppError::Threads)?;
+        let load_wake = ctx.clone();
+        let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
+        loader.begin(match project.volume.path.as_slice() {
+            [] => Request::BuiltIn,
+            paths => Request::Project(paths.to_vec()),
+        });
+        Ok(Self {
+            document: Document::new(project),
+            engine,
+            picture: Picture::new([1, 1]),
+            meter: Meter::default(),
+            canvas: Canvas::new(creation.wgpu_render_state.clone()),
+            canvas_size: None,
+            submitted: None,
+            loader,
+            panels: Panels::default(),
+            notice: None,
+            title: String::new(),
+        })
+    }
+
+    /// What is open and set.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// What is open and set, to be changed from outside.
+    pub fn document_mut(&mut self) -> &mut Document {
+        &mut self.document
+    }
+
+    /// The job that was submitted last.
+    pub fn job(&self) -> Option<&Job> {
+        self.submitted.as_ref().map(|submitted| &submitted.job)
+    }
+
+    /// Which submit that was.
+    pub fn generation(&self) -> Option<Generation> {
+        self.submitted
+            .as_ref()
+            .map(|submitted| submitted.generation)
+    }
+
+    /// How the picture is developed.
+    pub fn view(&self) -> View {
+        self.meter.view(&self.document.project.view())
+    }
+
+    /// The picture on show.
+    pub fn picture(&self) -> &Picture {
+        &self.picture
+    }
+
+    /// Whether every pass of the job submitted last is on the picture, and nothing is being loaded.
+    pub fn is_settled(&self) -> bool {
+        self.loader.loading().is_none() && self.renders_newest() && self.picture.progress.finished
+    }
+
+    /// What went wrong last, in words, unless it was dismissed.
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_deref()
+    }
+
+    /// Opens files as if they had been dropped on the window.
+    pub fn open(&mut self, paths: Vec<PathBuf>) {
+        let request = match (self.document.wants_a_partner(), paths.as_slice()) {
+            (_, []) => return,
+            (Some(open), [path]) => Request::Partner(Arc::clone(open), path.clone()),
+            _ => Request::Files(paths),
+        };
+        self.loader.begin(request);
+    }
+
+    /// Whether the engine's news are about the job submitted last.
+    fn renders_newest(&self) -> bool {
+        self.generation().is_some() && self.picture.generation() == self.generation()
+    }
+
+    /// Takes in what the engine rendered.
+    fn drain(&mut self) {
+        for update in self.engine.drain() {
+            self.picture.take(update);
+        }
+        let Some(submitted) = &self.submitted else {
+            return;
+        };
+        if self.picture.generation() == Some(submitted.generation) && self.picture.progress.done > 0
+        {
+            self.meter.follow(&submitted.job.volume, &self.picture);
+        }
+    }
+
+    /// Takes in what the loader read.
+    fn receive(&mut self) {
+        while let Some(outcome) = self.loader.poll() {
+            match outcome {
+                Outcome::Shown(volume) => self.document.open(volume),
+                Outcome::Replaced(volume) => {
+                    self.document.replace(volume);
+                    self.notice = None;
+                }
+                Outcome::Failed { request, words } => {
+                    let nothing_open = self.document.volume().is_none();
+                    let instead = matches!(request, Request::Project(_)) && nothing_open;
+                    if instead {
+                        // The settings were made for files that are not there.
+                        self.document.project.volume = crate::project::VolumeSettings::default();
+                        self.document.project.camera = crate::project::CameraSettings::default();
+                        self.loader.begin(Request::BuiltIn);
+                    }
+                    let end = if instead {
+                        ". The built-in flame is shown instead"
+                    } else {
+                        ""
+                    };
+                    self.notice = Some(format!("{words}{end}"));
+                }
+                Outcome::Chosen(paths) => self.open(paths),
+                Outcome::NoDialog => self.panels.file.no_dialog = true,
+            }
+        }
+    }
+
+    /// Submits the document's job if it is another than the one submitted last.
+    fn follow(&mut self) {
+        let Some(size) = self.canvas_size else { return };
+        let Some(job) = self.document.job(size) else {
+            return;
+        };
+        if self
+            .submitted
+            .as_ref()
+            .is_none_or(|submitted| submitted.job != *job)
+        {
+            let job = job.clone();
+            let generation = self.engine.submit(job.clone());
+            self.submitted = Some(Submitted {
+                job,
+                generation,
+                at: Instant::now(),
+            });
+        }
+    }
+
+    fn obey(&mut self, commands: Vec<Command>) {
+        for command in commands {
+            match command {
+                Command::Ask => self.loader.ask(),
+                Command::Open(paths) => self.open(paths),
+                Command::Meter => self.meter.measure(self.picture.film()),
+                Command::Dismiss => self.notice = None,
+            }
+        }
+    }
+
+    /// Files let go over the window, and a path pasted where nothing else takes it.
+    fn take_drops(&mut self, ctx: &egui::Context) {
+        let mut paths: Vec<PathBuf> = ctx.input(|input| {
+            input
+                .raw
+                .dropped_files
+                .iter()
+                .map(|file| file.path().to_owned())
+                .collect()
+        });
+        if paths.is_empty() && !ctx.egui_wants_keyboard_input() {
+            paths = ctx.input(|input| {
+                let pasted = input.events.iter().filter_map(|event| match event {
+                    egui::Event::Paste(text) => Some(files::paths_of(text)),
+                    _ => None,
+                });
+                pasted.flatten().collect()
+            });
+        }
+        self.open(paths);
+    }
+
+    fn take_keys(&mut self, ctx: &egui::Context) {
+        if ctx.egui_wants_keyboard_input() {
+            return;
+        }
+        let with = |modifiers, key| KeyboardShortcut::new(modifiers, key);
+        let redo = with(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+        // The longer shortcut first: the shorter one would also match it.
+        if ctx.input_mut(|input| input.consume_shortcut(&redo)) {
+            self.document.redo();
+        } else if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::Z))) {
+            self.document.undo();
+        }
+        if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::O))) {
+            self.loader.ask();
+        }
+    }
+
+    fn retitle(&mut self, ctx: &egui::Context) {
+        let title = format!("Sootlight — {}", self.document.title());
+        if title != self.title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
+        self.receive();
+        self.drain();
+        self.retitle(ctx);
+        // A hidden window draws nothing, yet what was loaded begins to render.
+        self.follow();
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        self.take_drops(&ctx);
+        self.take_keys(&ctx);
+
+        // Panels change the document, and ask for what they cannot do themselves.
+        let before = self.document.project.clone();
+        let mut commands = Vec::new();
+        panels::status(ui, self);
+        self.panels.show(ui, &mut self.document, &mut commands);
+        self.document
+            .remember(before, ctx.input(|input| input.pointer.any_down()));
+
+        // The picture has all the space that is left.
+        let view = self.view();
+        let size = self.canvas.show(ui, &self.picture, &view);
+        self.canvas_size = Some(size);
+        panels::overlay(ui, self, &mut commands);
+
+        self.obey(commands);
+        self.follow();
+    }
+}

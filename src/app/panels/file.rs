@@ -1,0 +1,82 @@
+//! Which files, how they were understood, and what could not be taken from them.
+
+use egui::{Key, Label, RichText, TextEdit, Ui};
+
+use super::{Command, headline, short};
+use crate::app::Document;
+use crate::app::files::paths_of;
+use crate::app::theme::WARNING;
+
+/// What the section remembers between frames.
+#[derive(Debug, Default)]
+pub(in crate::app) struct FilePanel {
+    path: String,
+    /// Whether this desktop turned out to have no dialog.
+    pub(in crate::app) no_dialog: bool,
+}
+
+impl FilePanel {
+    /// Draws the section.
+    pub(super) fn show(&mut self, ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
+        ui.add(Label::new(RichText::new(document.title()).strong().size(16.0)).truncate());
+        ui.add_space(3.0);
+        ui.horizontal(|ui| {
+            let open = ui.button("Open…").on_hover_text(
+                "Open volume files (Ctrl+O). A density and its temperature can be chosen together. Files can also \
+                 be dropped anywhere on the window.",
+            );
+            if open.clicked() {
+                commands.push(Command::Ask);
+            }
+            let field = TextEdit::singleline(&mut self.path)
+                .hint_text("or a path, then Enter")
+                .desired_width(f32::INFINITY);
+            let field = ui.add(field).on_hover_text("The path of a volume file.");
+            if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
+                commands.push(Command::Open(paths_of(&self.path)));
+                self.path.clear();
+            }
+        });
+        if self.no_dialog {
+            let words = "This desktop offers no file dialog: type or paste a path above, or drop files here.";
+            ui.label(RichText::new(words).color(WARNING));
+        }
+    }
+}
+
+/// What was found in the file: at the end, because it is as long as it must be.
+pub(super) fn findings(ui: &mut Ui, document: &Document) {
+    let (Some(job), Some(recognised)) = (document.last_job(), document.recognised()) else {
+        return;
+    };
+    headline(ui, "What was read");
+    ui.label(format!("Format: {}", job.volume.format.name()));
+    let why = if job.producer == recognised.producer {
+        recognised.reason.as_str()
+    } else {
+        "set by hand"
+    };
+    ui.label(format!("Read as {}: {why}.", job.producer.name()));
+    for row in document.fields() {
+        ui.add_space(4.0);
+        let title = format!("{} from “{}”", row.kind.name(), row.grid);
+        ui.label(RichText::new(title).strong());
+        let range = |(low, high): (f64, f64)| format!("{} … {}", short(low), short(high));
+        let words = format!(
+            "in the file {}\nin the fire {} {}",
+            range(row.raw),
+            range(row.mapped),
+            row.kind.unit()
+        );
+        ui.label(words.trim_end()).on_hover_text(
+            "Lowest and highest value in the file, and what they are taken to be. f_v is the volume of soot in a \
+             volume of gas.",
+        );
+    }
+    if !job.flaws.is_empty() {
+        headline(ui, "Assumed or not faithful");
+        for flaw in job.flaws.iter() {
+            ui.label(RichText::new(format!("• {flaw}")).color(WARNING));
+        }
+    }
+}
