@@ -37,6 +37,7 @@
 
 #[cfg(feature = "window")]
 pub mod app;
+pub mod cli;
 pub mod colour;
 pub mod engine;
 pub mod export;

@@ -1,3 +1,7 @@
 //! The `sootlight` program.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    sootlight::cli::run(std::env::args_os())
+}

@@ -1,0 +1,127 @@
+//! What was typed. What it means is decided in [`super::command`].
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
+use clap::{Args as ClapArgs, Parser, Subcommand};
+
+use crate::project::Quality;
+use crate::project::set::KEYS;
+
+/// Fire as physics shows it.
+///
+/// Without a command, opens the window with the files loaded. Without FILE, shows the built-in flame.
+#[derive(Debug, Parser)]
+#[command(name = "sootlight", version, args_conflicts_with_subcommands = true, after_long_help = keys_help())]
+pub(super) struct Args {
+    #[command(subcommand)]
+    pub(super) command: Option<Sub>,
+    #[command(flatten)]
+    pub(super) project: ProjectArgs,
+}
+
+/// The commands that need no window.
+#[derive(Debug, Subcommand)]
+pub(super) enum Sub {
+    /// Render a picture into a file.
+    #[command(after_long_help = keys_help())]
+    Render(RenderArgs),
+    /// Tell what is in a volume and what would be made of it.
+    Info {
+        #[command(flatten)]
+        project: ProjectArgs,
+    },
+}
+
+/// What makes a project.
+#[derive(Debug, Clone, Default, ClapArgs)]
+pub(super) struct ProjectArgs {
+    /// Volume files: OpenVDB, dense or sparse ASCII, sparse binary; several are read as one volume.
+    #[arg(value_name = "FILE")]
+    pub(super) files: Vec<PathBuf>,
+    /// A scene file to start from.
+    #[arg(long, value_name = "SCENE.toml")]
+    pub(super) scene: Option<PathBuf>,
+    /// Set a key of the scene file, such as soot.amount=2; may be repeated. --help lists the keys.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
+}
+
+/// Flags of `render`.
+#[derive(Debug, ClapArgs)]
+pub(super) struct RenderArgs {
+    #[command(flatten)]
+    pub(super) project: ProjectArgs,
+    /// The picture: .png as it looks, .exr with the light itself.
+    #[arg(short, long, value_name = "OUT.{png,exr}")]
+    pub(super) output: PathBuf,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// A preset of step, wavelengths and rays; numbers in the scene file or in --set win.
+    #[arg(long, value_parser = PossibleValuesParser::new(Quality::ALL.map(Quality::name)).map(|name| quality(&name)))]
+    pub(super) quality: Option<Quality>,
+    /// Threads to render with; all cores if not given. The picture is the same.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// Bits of each channel of a PNG.
+    #[arg(long, value_parser = PossibleValuesParser::new(["8", "16"]))]
+    pub(super) bits: Option<String>,
+    /// Write times, counts, settings and flaws as JSON.
+    #[arg(long, value_name = "STATS.json")]
+    pub(super) stats: Option<PathBuf>,
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text
+        .split_once(['x', 'X', '×'])
+        .map(|(width, height)| [width.parse(), height.parse()]);
+    match sides {
+        Some([Ok(width), Ok(height)]) => Ok([width, height]),
+        _ => Err("expected width x height in pixels, such as 1280x720".to_owned()),
+    }
+}
+
+/// The quality of a name that the parser has let through.
+fn quality(name: &str) -> Quality {
+    Quality::ALL
+        .into_iter()
+        .find(|quality| quality.name() == name)
+        .unwrap_or_default()
+}
+
+/// The keys of the scene file, aligned.
+fn keys_help() -> String {
+    let mut help = "Keys of --set and of the scene file:\n".to_owned();
+    let width = KEYS.iter().map(|key| key.name.len()).max().unwrap_or(0);
+    for key in KEYS {
+        let _ = writeln!(
+            help,
+            "  {:width$}  {}: {}",
+            key.name, key.meaning, key.expects
+        );
+    }
+    help
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn a_size_is_two_numbers() {
+        assert_eq!(size("640x360"), Ok([640, 360]));
+        assert_eq!(size("640×360"), Ok([640, 360]));
+        for wrong in ["640", "640x", "x360", "-1x5", "1.5x2", "640x360x2", ""] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! What was typed, checked and with its meaning: after this only the world can fail.
+
+use std::path::{Path, PathBuf};
+
+use super::args::{Args, ProjectArgs, RenderArgs, Sub};
+use super::error::CliError;
+use crate::export::png::Bits;
+use crate::project::Project;
+use crate::project::set::did_you_mean;
+
+/// A thing to do.
+#[derive(Debug)]
+pub(super) enum Command {
+    /// Open the window.
+    Window(Box<Project>),
+    /// Render a still.
+    Render(Box<Render>),
+    /// Tell about a volume.
+    Info(Box<Project>),
+}
+
+/// A still to render.
+#[derive(Debug)]
+pub(super) struct Render {
+    pub(super) project: Project,
+    pub(super) output: PathBuf,
+    pub(super) format: Format,
+    pub(super) threads: usize,
+    pub(super) stats: Option<PathBuf>,
+}
+
+/// A picture's file format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    Png(Bits),
+    Exr,
+}
+
+impl Command {
+    /// What the arguments mean.
+    pub(super) fn new(args: Args) -> Result<Self, CliError> {
+        match args.command {
+            None => {
+                refuse_mistyped_command(&args.project.files)?;
+                project(&args.project, |_| {}).map(|project| Self::Window(Box::new(project)))
+            }
+            Some(Sub::Info { project: args }) => {
+                project(&args, |_| {}).map(|project| Self::Info(Box::new(project)))
+            }
+            Some(Sub::Render(args)) => {
+                Render::new(args).map(|render| Self::Render(Box::new(render)))
+            }
+        }
+    }
+}
+
+impl Render {
+    fn new(args: RenderArgs) -> Result<Self, CliError> {
+        let format = format(&args.output, args.bits.as_deref())?;
+        let project = project(&args.project, |project| {
+            project.render.quality = args.quality.unwrap_or(project.render.quality);
+            project.render.size = args.size.unwrap_or(project.render.size);
+        })?;
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = args.threads.map_or_else(cores, usize::from);
+        Ok(Self {
+            project,
+            output: args.output,
+            format,
+            threads,
+            stats: args.stats,
+        })
+    }
+}
+
+/// Scene file, then flags, then `--set` in its order; the later wins.
+fn project(args: &ProjectArgs, flags: impl FnOnce(&mut Project)) -> Result<Project, CliError> {
+    let mut project = match &args.scene {
+        Some(path) => Project::read(path).map_err(CliError::scene)?,
+        None => Project::default(),
+    };
+    flags(&mut project);
+    if !args.files.is_empty() {
+        project.volume.path.clone_from(&args.files);
+    }
+    for assignment in &args.set {
+        project.set(assignment).map_err(|error| {
+            CliError::setting(format!("--set {assignment} is not right"), error)
+        })?;
+    }
+    project.check().map_err(CliError::project)?;
+    Ok(project)
+}
+
+/// The format that a file's ending asks for.
+fn format(output: &Path, bits: Option<&str>) -> Result<Format, CliError> {
+    let ending = output
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase());
+    match (ending.as_deref(), bits) {
+        (Some("png"), Some("16")) => Ok(Format::Png(Bits::Sixteen)),
+        (Some("png"), _) => Ok(Format::Png(Bits::Eight)),
+        (Some("exr"), None) => Ok(Format::Exr),
+        (Some("exr"), Some(_)) => Err(CliError::Usage(
+            "--bits is for PNG: EXR always has 32-bit floats; leave it out".to_owned(),
+        )),
+        _ => Err(CliError::Usage(format!(
+            "-o {}: the name must end with .png (as it looks) or .exr (the light itself)",
+            output.display()
+        ))),
+    }
+}
+
+/// A single word that is no file but nearly a command was meant as one.
+fn refuse_mistyped_command(files: &[PathBuf]) -> Result<(), CliError> {
+    let Some(word) = files
+        .first()
+        .filter(|file| file.extension().is_none() && !file.exists())
+        .and_then(|file| file.to_str())
+    else {
+        return Ok(());
+    };
+    match did_you_mean(word, ["render", "info", "help"]) {
+        Some(command) => Err(CliError::Usage(format!(
+            "there is no command and no file named {word}; did you mean {command}?"
+        ))),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(
+        clippy::unwrap_used,
+        clippy::panic,
+        reason = "a test fails by panicking"
+    )]
+    use clap::Parser as _;
+
+    use super::*;
+    use crate::project::Quality;
+
+    fn render(arguments: &[&str]) -> Result<Render, CliError> {
+        let words = ["sootlight", "render"]
+            .into_iter()
+            .chain(arguments.iter().copied());
+        match Command::new(Args::try_parse_from(words).unwrap())? {
+            Command::Render(render) => Ok(*render),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_ending_decides_the_format() {
+        assert_eq!(
+            render(&["-o", "a.PNG"]).unwrap().format,
+            Format::Png(Bits::Eight)
+        );
+        assert_eq!(
+            render(&["-o", "a.png", "--bits", "16"]).unwrap().format,
+            Format::Png(Bits::Sixteen)
+        );
+        assert_eq!(render(&["-o", "a.exr"]).unwrap().format, Format::Exr);
+        for wrong in [
+            &["-o", "a.jpg"][..],
+            &["-o", "png"],
+            &["-o", "a.exr", "--bits", "8"],
+        ] {
+            assert!(
+                matches!(render(wrong), Err(CliError::Usage(_))),
+                "{wrong:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn set_wins_over_flags_and_flags_over_the_scene() {
+        let made = render(&[
+            "-o",
+            "a.png",
+            "--quality",
+            "final",
+            "--size",
+            "64x32",
+            "--set",
+            "render.step_voxels=2",
+        ]);
+        let project = made.unwrap().project;
+        assert_eq!(
+            (project.render.quality, project.render.size),
+            (Quality::Final, [64, 32])
+        );
+        let settings = project.settings(project.render.size).unwrap();
+        assert_eq!((settings.step_voxels, settings.samples_per_pixel), (2.0, 4));
+        let made = render(&["-o", "a.png", "x.vdb", "--set", "volume.path=y.vdb"]).unwrap();
+        assert_eq!(made.project.volume.path, [PathBuf::from("y.vdb")]);
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_refused_before_anything_is_loaded() {
+        let error =
+            render(&["-o", "a.png", "no-such.vdb", "--set", "soot.radius_nm=-1"]).unwrap_err();
+        let CliError::WrongSetting { source, .. } = error else {
+            panic!("{error:?}")
+        };
+        assert_eq!(
+            source.to_string(),
+            "soot.radius_nm is -1: it must lie between 1 and 100"
+        );
+    }
+}

@@ -1,0 +1,250 @@
+//! `sootlight info`: what is in the files, and what would be made of it.
+
+use std::fmt::Write as _;
+
+use super::error::CliError;
+use super::{load, output};
+use crate::project::{Job, Project};
+use crate::scene::flame::world_bounds;
+use crate::volume::{FieldKind, GridSummary, Producer, Summary, UpAxis, Volume, summarise};
+
+/// Tells what was found, then fails if nothing of it can be rendered.
+pub(super) fn run(project: &Project) -> Result<(), CliError> {
+    let volume = load::volume(project)?;
+    let summary = summarise(&volume, project.volume.producer);
+    let mut text = sources(&summary);
+    text.push_str(&grids(&summary));
+    text.push_str(&producer(&summary, project));
+    let job = project.job(&volume);
+    if let Ok(job) = &job {
+        text.push_str(&made_of_it(job, &volume));
+    } else {
+        let notes = summary.notes.iter().chain(&summary.preset.flaws);
+        text.push_str(&flaws(&notes.map(String::as_str).collect::<Vec<_>>()));
+    }
+    output::say(text.trim_end());
+    job.map(|_| ()).map_err(CliError::project)
+}
+
+fn sources(summary: &Summary) -> String {
+    let mut text = String::new();
+    for path in &summary.sources {
+        let _ = writeln!(text, "{}", path.display());
+    }
+    if summary.sources.is_empty() {
+        text.push_str("the built-in flame\n");
+    }
+    let _ = write!(text, "format    {}", summary.format.name());
+    if let Some(creator) = &summary.creator {
+        let _ = write!(text, ", written by {creator}");
+    }
+    text.push_str("\n\n");
+    text
+}
+
+fn grids(summary: &Summary) -> String {
+    let mut table = Table::new(&[
+        "grid",
+        "stored",
+        "voxels",
+        "range",
+        "voxel size",
+        "active",
+        "memory",
+    ]);
+    for grid in &summary.grids {
+        let GridSummary { dims, range, .. } = grid;
+        table.row([
+            grid.name.clone(),
+            grid.stored_as.clone(),
+            format!("{} × {} × {}", dims.x, dims.y, dims.z),
+            format!(
+                "{} to {}",
+                short(f64::from(range.0)),
+                short(f64::from(range.1))
+            ),
+            voxel_size(grid),
+            grid.active_voxels.to_string(),
+            bytes(grid.bytes),
+        ]);
+    }
+    let mut text = table.to_string();
+    for skipped in &summary.skipped {
+        let _ = writeln!(text, "not used: {}: {}", skipped.name, skipped.reason);
+    }
+    text.push('\n');
+    text
+}
+
+fn producer(summary: &Summary, project: &Project) -> String {
+    let reason = &summary.recognised.reason;
+    match project.volume.producer {
+        Producer::Auto => format!(
+            "producer  {}: {reason}\n",
+            summary.recognised.producer.name()
+        ),
+        named => format!("producer  {}, as it was set\n", named.name()),
+    }
+}
+
+fn made_of_it(job: &Job, volume: &Volume) -> String {
+    let mut text = String::new();
+    let placement = &job.flame.placement;
+    let up = match placement.up {
+        UpAxis::Y => "y",
+        UpAxis::Z => "z",
+    };
+    let _ = writeln!(text, "up        {up}");
+    let bounds = world_bounds(volume, &job.flame.maps, placement);
+    if bounds.is_empty() {
+        text.push_str("box       empty\n");
+    } else {
+        let side = |from: f64, to: f64| format!("{} to {}", short(from), short(to));
+        let _ = writeln!(
+            text,
+            "box       x {}, y {}, z {} m",
+            side(bounds.min.x, bounds.max.x),
+            side(bounds.min.y, bounds.max.y),
+            side(bounds.min.z, bounds.max.z)
+        );
+    }
+    text.push_str("\nwhat would be made of it\n");
+    let mut table = Table::new(&["field", "from grid", "raw", "physical", "unit"]);
+    for (kind, map) in job.flame.maps.iter() {
+        let Some(grid) = volume.grid(&map.grid) else {
+            continue;
+        };
+        let raw = (f64::from(grid.range().0), f64::from(grid.range().1));
+        let mapped = map.mapped_range(raw);
+        let range = |(low, high): (f64, f64)| format!("{} to {}", short(low), short(high));
+        let unit = if kind == FieldKind::Flame {
+            "0 to 1"
+        } else {
+            kind.unit()
+        };
+        table.row([
+            kind.name().to_owned(),
+            map.grid.clone(),
+            range(raw),
+            range(mapped),
+            unit.to_owned(),
+        ]);
+    }
+    text.push_str(&table.to_string());
+    text.push_str(&flaws(&job.flaws.iter().collect::<Vec<_>>()));
+    text
+}
+
+fn flaws(flaws: &[&str]) -> String {
+    if flaws.is_empty() {
+        return "\nnothing was assumed\n".to_owned();
+    }
+    flaws
+        .iter()
+        .fold("\nassumed or repaired\n".to_owned(), |mut text, flaw| {
+            let _ = writeln!(text, "  {flaw}");
+            text
+        })
+}
+
+fn voxel_size(grid: &GridSummary) -> String {
+    let size = grid.voxel_size;
+    if (size - size.x).abs().max_element() <= 1e-6 * size.x {
+        short(size.x)
+    } else {
+        format!("{} × {} × {}", short(size.x), short(size.y), short(size.z))
+    }
+}
+
+/// Four digits, as a person would write them.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e5).contains(&size) {
+        return format!("{value:.3e}");
+    }
+    let decimals = (3 - size.log10().floor() as i32).max(0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+fn bytes(bytes: u64) -> String {
+    match bytes as f64 {
+        b if b >= 1e9 => format!("{:.1} GB", b / 1e9),
+        b if b >= 1e6 => format!("{:.1} MB", b / 1e6),
+        b if b >= 1e3 => format!("{:.1} kB", b / 1e3),
+        b => format!("{b:.0} B"),
+    }
+}
+
+/// Rows of text in columns as wide as their widest cell.
+struct Table<const N: usize> {
+    rows: Vec<[String; N]>,
+}
+
+impl<const N: usize> Table<N> {
+    fn new(head: &[&str; N]) -> Self {
+        Self {
+            rows: vec![head.map(str::to_owned)],
+        }
+    }
+
+    fn row(&mut self, cells: [String; N]) {
+        self.rows.push(cells);
+    }
+}
+
+impl<const N: usize> std::fmt::Display for Table<N> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let width = |column: usize| {
+            self.rows
+                .iter()
+                .map(|row| row[column].chars().count())
+                .max()
+                .unwrap_or(0)
+        };
+        let widths: [usize; N] = std::array::from_fn(width);
+        for row in &self.rows {
+            let cells = row
+                .iter()
+                .zip(widths)
+                .map(|(cell, width)| format!("{cell:width$}"));
+            writeln!(f, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_a_person_would() {
+        let cases = [
+            (0.0, "0"),
+            (300.0, "300"),
+            (1964.23, "1964"),
+            (0.01875, "0.01875"),
+            (-1.5, "-1.5"),
+            (2.4e-6, "2.400e-6"),
+            (123456.0, "1.235e5"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(short(value), text);
+        }
+    }
+
+    #[test]
+    fn columns_are_as_wide_as_their_widest_cell() {
+        let mut table = Table::new(&["a", "bc"]);
+        table.row(["× ×".to_owned(), String::new()]);
+        assert_eq!(table.to_string(), "a    bc\n× ×\n");
+    }
+}

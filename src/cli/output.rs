@@ -1,0 +1,50 @@
+//! The two streams: answers go to standard output, errors and progress to standard error. A stream that nobody
+//! reads any more is no error: `sootlight info fire.vdb | head` is a fair question.
+
+use std::error::Error;
+use std::io::{self, IsTerminal as _, Write as _};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Writes lines to standard output.
+pub(super) fn say(text: &str) {
+    let _ = writeln!(io::stdout().lock(), "{text}");
+}
+
+/// Writes an error with everything that caused it.
+pub(super) fn error(error: &dyn Error) {
+    let mut stream = io::stderr().lock();
+    let mut said = error.to_string();
+    let _ = writeln!(stream, "error: {said}");
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        let words = error.to_string();
+        // Some errors quote their cause: once is enough.
+        if !said.ends_with(&words) {
+            let _ = writeln!(stream, "  caused by: {words}");
+            said = words;
+        }
+        cause = error.source();
+    }
+}
+
+/// Steps of a progress bar: a tenth of a percent.
+const STEPS: f64 = 1000.0;
+
+/// A bar on a terminal, nothing in a pipe.
+pub(super) fn progress_bar() -> ProgressBar {
+    if !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(STEPS as u64);
+    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed}, {eta} to go");
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// Moves a bar to a share between 0 and 1, never back: workers report in any order.
+pub(super) fn advance(bar: &ProgressBar, share: f64) {
+    let position = (share * STEPS) as u64;
+    if position > bar.position() {
+        bar.set_position(position);
+    }
+}

@@ -1,0 +1,104 @@
+//! What a render took and saw, as JSON. Keys are kept: scripts read them.
+
+use serde_json::{Value, json};
+
+use crate::export::exr::LUMENS_PER_WATT;
+use crate::project::Job;
+use crate::render::develop::{Metering, ViewParams};
+use crate::render::{Flaws, Frame};
+use crate::scene::{Scene, WavelengthSet};
+
+/// Wall-clock seconds of each step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Seconds {
+    pub(super) load: f64,
+    pub(super) bake: f64,
+    pub(super) render: f64,
+    pub(super) write: f64,
+}
+
+/// Everything that a render has to tell.
+pub(super) struct Stats<'a> {
+    pub(super) seconds: Seconds,
+    pub(super) threads: usize,
+    pub(super) job: &'a Job,
+    pub(super) scene: &'a Scene,
+    pub(super) frame: &'a Frame,
+    pub(super) metering: &'a Metering,
+    pub(super) view: &'a ViewParams,
+    pub(super) flaws: &'a Flaws,
+}
+
+impl Stats<'_> {
+    /// The document.
+    pub(super) fn to_json(&self) -> Value {
+        let Seconds {
+            load,
+            bake,
+            render,
+            write,
+        } = self.seconds;
+        let medium = self.scene.flame.medium();
+        let (bricks, _) = medium.occupancy();
+        json!({
+            "seconds": { "load": load, "bake": bake, "render": render, "write": write },
+            "threads": self.threads,
+            "rays": self.frame.rays,
+            "samples": self.frame.samples,
+            "plan": [{
+                "effect": "emission-absorption",
+                "state": "on",
+                "reason": "soot glows and absorbs: it is the picture",
+            }],
+            "flaws": self.flaws.iter().collect::<Vec<_>>(),
+            "settings": self.settings(),
+            "exposure": self.exposure(),
+            "peak": {
+                "luminance_cd_m2": self.peak_luminance(),
+                "volume_fraction": finite(f64::from(medium.peak_volume_fraction())),
+                "temperature_k": finite(f64::from(medium.peak_temperature_k())),
+            },
+            "medium": {
+                "bricks": bricks,
+                "bytes": medium.bytes(),
+                "voxel_size_m": finite(medium.voxel_size_m()),
+            },
+        })
+    }
+
+    fn settings(&self) -> Value {
+        let settings = &self.job.settings;
+        json!({
+            "size": settings.size,
+            "step_voxels": settings.step_voxels,
+            "wavelengths": settings.wavelengths.count(),
+            "wavelength_set": match settings.wavelengths {
+                WavelengthSet::Fitted(_) => "fitted",
+                WavelengthSet::Plain(_) => "plain",
+            },
+            "samples_per_pixel": settings.samples_per_pixel,
+        })
+    }
+
+    fn exposure(&self) -> Value {
+        let multiplier = self.metering.view(self.view).exposure;
+        json!({
+            "relative_ev": self.view.exposure_ev,
+            "multiplier": finite(multiplier),
+            "white_xyz": self.metering.white_xyz.map(finite),
+            "display_white_cd_m2": finite(LUMENS_PER_WATT / multiplier),
+            "bright_cd_m2": finite(LUMENS_PER_WATT * self.metering.bright_y),
+        })
+    }
+
+    fn peak_luminance(&self) -> Value {
+        let luminance = self.frame.film.pixels().iter().map(|pixel| pixel.xyz[1]);
+        let peak = luminance.filter(|y| y.is_finite()).fold(0.0, f32::max);
+        finite(LUMENS_PER_WATT * f64::from(peak))
+    }
+}
+
+/// JSON has no infinity: what is not a finite number is null.
+fn finite(value: f64) -> Value {
+    serde_json::Number::from_f64(value).map_or(Value::Null, Value::Number)
+}

@@ -1,0 +1,46 @@
+//! The window, or one sentence that says why there is none and what to do instead.
+
+use super::error::CliError;
+use crate::project::Project;
+
+/// What works without a window.
+const INSTEAD: &str =
+    "to make a picture without one, run `cargo run --release -- render -o fire.png`";
+
+/// Opens the window and stays until it is closed.
+#[cfg(feature = "window")]
+pub(super) fn run(project: Project) -> Result<(), CliError> {
+    if !has_display() {
+        return Err(CliError::Said(format!(
+            "there is no display for a window: {INSTEAD}"
+        )));
+    }
+    crate::app::run(project).map_err(|error| {
+        // A driver's words may be many lines.
+        let words = error.to_string().replace('\n', " ");
+        CliError::Said(format!("the window cannot be opened ({words}): {INSTEAD}"))
+    })
+}
+
+/// This build has none.
+#[cfg(not(feature = "window"))]
+pub(super) fn run(_: Project) -> Result<(), CliError> {
+    Err(CliError::Said(format!(
+        "this build has no window: {INSTEAD}"
+    )))
+}
+
+/// Whether a window could be shown. Asked first, because the window's libraries do not all fail politely.
+#[cfg(feature = "window")]
+fn has_display() -> bool {
+    let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let needs_server = cfg!(all(
+        unix,
+        not(any(
+            target_os = "macos",
+            target_os = "ios",
+            target_os = "android"
+        ))
+    ));
+    !needs_server || set("DISPLAY") || set("WAYLAND_DISPLAY") || set("WAYLAND_SOCKET")
+}
