@@ -1,1 +1,23 @@
-//! All integration tests in one binary, because linking is slow.
+//! All integration tests in one binary, because linking is slow. Each module is one kind of test.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a test fails by panicking"
+)]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a skipped test says so in print"
+)]
+
+mod architecture;
+mod cli;
+mod common;
+mod engine;
+mod golden;
+mod ground_truth;
+mod loading;
+mod render;
+mod screenshots;
+#[cfg(feature = "window")]
+mod window;

@@ -1,0 +1,204 @@
+//! Restarts: no stale tile, prompt cancel, prompt shutdown, a panic that is survived.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use sootlight::engine::{Engine, Generation, News, Picture};
+use sootlight::project::Job;
+use sootlight::render::{Cancel, render_still};
+
+use super::common;
+
+/// A bound on waiting that no sane machine reaches; nothing is asserted about time but that it ends.
+const PATIENCE: Duration = Duration::from_mins(2);
+
+fn engine() -> (Engine, Arc<AtomicUsize>) {
+    let wakes = Arc::new(AtomicUsize::new(0));
+    let counter = Arc::clone(&wakes);
+    let wake = Box::new(move || {
+        counter.fetch_add(1, Ordering::SeqCst);
+    });
+    (Engine::new(2, wake).unwrap(), wakes)
+}
+
+/// Drains into the picture until `until` holds.
+fn wait(engine: &Engine, picture: &mut Picture, until: impl Fn(&Picture) -> bool) {
+    let begun = Instant::now();
+    while !until(picture) {
+        for update in engine.drain() {
+            picture.take(update);
+        }
+        assert!(
+            begun.elapsed() < PATIENCE,
+            "waited in vain: {:?}",
+            picture.progress
+        );
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// A job whose picture tells its number: every one looks through another amount of soot.
+fn numbered(number: u32, size: [u32; 2]) -> Job {
+    let mut job = common::torch_job(size);
+    job.flame.soot_amount = 0.2 + 0.1 * f64::from(number);
+    job
+}
+
+#[test]
+fn a_submitted_job_becomes_the_picture_that_a_still_has() {
+    let (engine, wakes) = engine();
+    let mut picture = Picture::new([64, 96]);
+    let job = numbered(1, [64, 96]);
+    let still = render_still(&job.scene(None), &job.settings, &Cancel::never(), &|_| {}).unwrap();
+    engine.submit(job);
+    wait(&engine, &mut picture, |picture| picture.progress.finished);
+    assert_eq!(*picture.film(), still.film);
+    assert!(wakes.load(Ordering::SeqCst) > 0);
+    assert!(picture.progress.first_picture.is_some());
+}
+
+#[test]
+fn no_stale_tile_lands_in_two_hundred_restarts() {
+    let (engine, _) = engine();
+    let size = [96, 128];
+    let mut newest: Option<Generation> = None;
+    let mut seen = 0;
+    for number in 0..200 {
+        let generation = engine.submit(numbered(number % 7, size));
+        newest = newest.max(Some(generation));
+        // Restarts at all moments: at once, while packing, within a pass.
+        std::thread::sleep(Duration::from_micros(u64::from(number % 11) * 400));
+        for update in engine.drain() {
+            assert_eq!(
+                Some(update.generation),
+                newest,
+                "a tile of an older job was drained"
+            );
+            seen += 1;
+        }
+    }
+    assert!(
+        seen > 0,
+        "nothing was ever drained: the test saw no restarts within a pass"
+    );
+
+    // And what comes to rest is the last job's picture, bit for bit.
+    let last = numbered(3, size);
+    let still = render_still(&last.scene(None), &last.settings, &Cancel::never(), &|_| {}).unwrap();
+    engine.submit(last);
+    let mut picture = Picture::new(size);
+    wait(&engine, &mut picture, |picture| picture.progress.finished);
+    assert_eq!(*picture.film(), still.film);
+}
+
+#[test]
+fn the_old_picture_stays_until_the_first_pass_of_the_new_one_is_whole() {
+    let (engine, _) = engine();
+    let size = [120, 160];
+    let mut picture = Picture::new(size);
+    engine.submit(numbered(1, size));
+    wait(&engine, &mut picture, |picture| picture.progress.finished);
+    let old = picture.film().clone();
+    engine.submit(numbered(20, size));
+    let begun = Instant::now();
+    while picture.progress.done == 0 || picture.progress.finished {
+        let mut updates = engine.drain().into_iter();
+        for update in updates.by_ref() {
+            let first_whole = matches!(update.news, News::PassDone { index: 0, .. });
+            picture.take(update);
+            if first_whole {
+                break;
+            }
+            assert_eq!(
+                *picture.film(),
+                old,
+                "a part of the new picture showed before its first pass was whole"
+            );
+        }
+        assert!(begun.elapsed() < PATIENCE);
+        if picture.progress.done == 1 {
+            break;
+        }
+    }
+    assert_ne!(*picture.film(), old);
+}
+
+#[test]
+fn only_what_changed_is_packed_again() {
+    let job = numbered(1, [32, 32]);
+    let before = job.scene(None);
+    let mut other = job.clone();
+    other.flame.soot_radius_nm = 30.0;
+    other.flame.soot_amount = 3.0;
+    assert!(
+        other
+            .scene(Some(&before))
+            .flame
+            .shares_medium_with(&before.flame)
+    );
+    assert!(
+        other
+            .scene(Some(&before))
+            .flame
+            .absorption_per_sample(550.0)
+            > before.flame.absorption_per_sample(550.0)
+    );
+    let map = other.flame.maps.temperature.as_mut().unwrap();
+    map.scale *= 0.9;
+    assert!(
+        !other
+            .scene(Some(&before))
+            .flame
+            .shares_medium_with(&before.flame)
+    );
+}
+
+#[test]
+fn a_cancel_leaves_nothing_to_drain_and_the_next_job_runs() {
+    let (engine, _) = engine();
+    let size = [64, 64];
+    engine.submit(numbered(2, [1024, 1024]));
+    engine.cancel();
+    let generation = engine.submit(numbered(4, size));
+    let mut picture = Picture::new(size);
+    wait(&engine, &mut picture, |picture| picture.progress.finished);
+    assert_eq!(picture.generation(), Some(generation));
+}
+
+#[test]
+fn a_worker_that_panics_is_reported_and_the_next_job_runs() {
+    // Past the doors rendering is infallible, so the fault is planted in what workers call: the window's wake.
+    let armed = Arc::new(AtomicBool::new(true));
+    let fuse = Arc::clone(&armed);
+    let wake = move || {
+        let on_a_worker = std::thread::current()
+            .name()
+            .is_some_and(|name| name.starts_with("sootlight-worker"));
+        assert!(
+            !(on_a_worker && fuse.swap(false, Ordering::SeqCst)),
+            "planted fault"
+        );
+    };
+    let engine = Engine::new(2, Box::new(wake)).unwrap();
+    let size = [48, 48];
+    let mut picture = Picture::new(size);
+    engine.submit(numbered(1, size));
+    wait(&engine, &mut picture, |picture| {
+        picture.progress.failure.is_some()
+    });
+    let words = picture.progress.failure.clone().unwrap();
+    assert!(words.contains("planted fault"), "{words}");
+    engine.submit(numbered(1, size));
+    wait(&engine, &mut picture, |picture| {
+        picture.progress.finished && picture.progress.failure.is_none()
+    });
+}
+
+#[test]
+fn dropping_the_engine_in_the_middle_of_a_picture_returns() {
+    let (engine, _) = engine();
+    engine.submit(numbered(1, [2048, 2048]));
+    std::thread::sleep(Duration::from_millis(20));
+    drop(engine);
+}

@@ -1,0 +1,151 @@
+//! The same bits from any number of threads and any order of tiles; cancelling; settings at the door.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+
+use sootlight::render::pass::{self, Audience};
+use sootlight::render::{Cancel, Film, Plan, Settings, SettingsError, render_pass, render_still};
+use sootlight::scene::WavelengthSet;
+
+use super::common;
+
+const SETTINGS: Settings = Settings {
+    size: [77, 101],
+    step_voxels: 1.0,
+    wavelengths: WavelengthSet::Fitted(6),
+    samples_per_pixel: 2,
+};
+
+fn pool(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap()
+}
+
+#[test]
+fn one_thread_and_many_give_the_same_bits() {
+    let scene = common::torch_scene(1.0);
+    let films = [1, 2, 5].map(|threads| {
+        pool(threads).install(|| {
+            render_still(&scene, &SETTINGS, &Cancel::never(), &|_| {})
+                .unwrap()
+                .film
+        })
+    });
+    assert!(films[0].pixels().iter().any(|pixel| pixel.xyz[1] > 0.0));
+    assert_eq!(films[0], films[1]);
+    assert_eq!(films[0], films[2]);
+}
+
+#[test]
+fn a_windows_last_pass_has_the_bits_of_a_still() {
+    let scene = common::torch_scene(1.0);
+    let settings = Settings {
+        step_voxels: 2.0,
+        ..SETTINGS
+    };
+    let still = render_still(&scene, &settings, &Cancel::never(), &|_| {})
+        .unwrap()
+        .film;
+    let plan = Plan::new(&scene, &settings);
+    let film = std::sync::Mutex::new(Film::new(settings.size));
+    for pass in pass::ladder(&settings, Audience::Window) {
+        assert!(render_pass(
+            &scene,
+            &plan,
+            &pass,
+            &Cancel::never(),
+            &|tile| film.lock().unwrap().merge(&tile)
+        ));
+    }
+    assert_eq!(film.into_inner().unwrap(), still);
+}
+
+#[test]
+fn a_coarse_pass_is_the_picture_in_small() {
+    let scene = common::torch_scene(1.0);
+    let settings = Settings {
+        size: [160, 200],
+        samples_per_pixel: 1,
+        ..SETTINGS
+    };
+    let plan = Plan::new(&scene, &settings);
+    let mean = |stride: u32| {
+        let film = std::sync::Mutex::new(Film::new(settings.size));
+        let ladder = pass::ladder(&settings, Audience::Window);
+        let pass = ladder.iter().find(|pass| pass.stride == stride).unwrap();
+        render_pass(&scene, &plan, pass, &Cancel::never(), &|tile| {
+            film.lock().unwrap().merge(&tile);
+        });
+        let film = film.into_inner().unwrap();
+        film.pixels()
+            .iter()
+            .map(|pixel| f64::from(pixel.xyz[1]))
+            .sum::<f64>()
+    };
+    let (coarse, full) = (mean(8), mean(1));
+    assert!((coarse / full - 1.0).abs() < 0.05, "{coarse} {full}");
+}
+
+#[test]
+fn a_cancel_stops_within_a_row_of_packets() {
+    let scene = common::torch_scene(1.0);
+    let settings = Settings {
+        size: [400, 400],
+        ..SETTINGS
+    };
+    let plan = Plan::new(&scene, &settings);
+    let pass = pass::ladder(&settings, Audience::Still)[0];
+    let current = Arc::new(AtomicU64::new(1));
+    let cancel = Cancel::when_passed(Arc::clone(&current), 1);
+    let tiles = AtomicUsize::new(0);
+    let whole = pool(2).install(|| {
+        render_pass(&scene, &plan, &pass, &cancel, &|_| {
+            tiles.fetch_add(1, Ordering::SeqCst);
+            current.store(2, Ordering::SeqCst);
+        })
+    });
+    assert!(!whole);
+    // Two workers, each at most at the end of the tile it was in.
+    assert!(tiles.into_inner() <= 2);
+}
+
+#[test]
+fn settings_out_of_range_are_refused_by_name() {
+    let step = Settings {
+        step_voxels: 0.0,
+        ..SETTINGS
+    }
+    .validated()
+    .unwrap_err();
+    assert!(
+        step.to_string().contains("render.step_voxels is 0"),
+        "{step}"
+    );
+    assert!(matches!(
+        Settings {
+            step_voxels: f64::NAN,
+            ..SETTINGS
+        }
+        .validated(),
+        Err(SettingsError::Step(_))
+    ));
+    assert!(matches!(
+        Settings {
+            size: [0, 5],
+            ..SETTINGS
+        }
+        .validated(),
+        Err(SettingsError::Size(_))
+    ));
+    assert!(matches!(
+        Settings {
+            samples_per_pixel: 0,
+            ..SETTINGS
+        }
+        .validated(),
+        Err(SettingsError::Samples(0))
+    ));
+    assert_eq!(SETTINGS.validated(), Ok(SETTINGS));
+}
