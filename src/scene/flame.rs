@@ -144,25 +144,23 @@ impl Flame {
     }
 }
 
-/// The box of a volume's soot and smoke in the world, metres, where they differ from what surrounds them; empty
-/// if there are none.
+/// The box of the bulk of a volume's soot (its smoke where there is no soot) in the world, metres; empty if there is
+/// none. What a camera frames.
 pub fn world_bounds(volume: &Volume, maps: &FieldMaps, placement: &Placement) -> Aabb {
     let fields = [&maps.soot, &maps.smoke];
-    fields
+    let grids = fields
         .into_iter()
         .flatten()
-        .filter_map(|map| volume.grid(&map.grid))
-        .fold(Aabb::EMPTY, |hull, grid| {
-            let bounds = grid.occupied();
-            if bounds.is_empty() {
-                return hull;
-            }
-            let voxels = Aabb {
-                min: bounds.min.as_dvec3() - 0.5,
-                max: bounds.max.as_dvec3() - 0.5,
-            };
-            hull.union(
-                &voxels.transformed(&(placement.world_from_file() * grid.world_from_index())),
-            )
-        })
+        .filter_map(|map| volume.grid(&map.grid));
+    let Some((grid, bulk)) = grids
+        .map(|grid| (grid, grid.bulk()))
+        .find(|(_, bulk)| !bulk.is_empty())
+    else {
+        return Aabb::EMPTY;
+    };
+    let voxels = Aabb {
+        min: bulk.min.as_dvec3() - 0.5,
+        max: bulk.max.as_dvec3() - 0.5,
+    };
+    voxels.transformed(&(placement.world_from_file() * grid.world_from_index()))
 }

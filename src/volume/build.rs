@@ -192,7 +192,7 @@ impl Grid {
             range,
             active_voxels: tally.active,
             stored_as: head.stored_as,
-            occupied: OnceLock::new(),
+            bulk: OnceLock::new(),
             bricks,
         };
         (grid, tally)

@@ -12,6 +12,10 @@ use super::lattice::{
     BRICK_EDGE, BRICK_LEN, IndexBox, MAX_COORDINATE, brick_key, brick_of, offset_in_brick,
 };
 
+/// Share of a field's greatest departure from its background that counts as its bulk: a wisp of 2 % is hardly
+/// seen beside the body of a fire.
+pub(super) const BULK: f32 = 0.02;
+
 /// What lies outside the stored voxels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Border {
@@ -63,8 +67,8 @@ pub struct Grid {
     pub(super) stored_as: &'static str,
     /// Sorted by `brick_key`, without doubles and without background bricks.
     pub(super) bricks: Vec<(IVec3, Brick)>,
-    /// See [`Grid::occupied`].
-    pub(super) occupied: OnceLock<IndexBox>,
+    /// See [`Grid::bulk`].
+    pub(super) bulk: OnceLock<IndexBox>,
 }
 
 impl Grid {
@@ -74,11 +78,13 @@ impl Grid {
         self.bounds
     }
 
-    /// The voxels whose value differs from the background: where the field has anything to show. Found at the
-    /// first call, then remembered.
-    pub fn occupied(&self) -> IndexBox {
-        *self.occupied.get_or_init(|| {
-            let differs = |value: f32| value != self.background;
+    /// The box of the field's bulk: voxels that depart from the background by more than [`BULK`] of the greatest
+    /// departure. Empty for a field that is background everywhere. Found at the first call, then remembered.
+    pub fn bulk(&self) -> IndexBox {
+        *self.bulk.get_or_init(|| {
+            let departure = |value: f32| (value - self.background).abs();
+            let least = BULK * departure(self.range.0).max(departure(self.range.1));
+            let differs = |value: f32| departure(value) > least;
             self.bricks()
                 .fold(IndexBox::EMPTY, |hull, (brick, values)| {
                     let first = brick * BRICK_EDGE;

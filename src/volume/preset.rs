@@ -7,10 +7,11 @@
 //! | soot | flame 0..1 | 2e-6 · flame, a bright flame 1 to 3 dm across |
 //! | smoke | density | 0.5e-6 · min(density / 0.3, 1) for Blender |
 //! | temperature | solver heat 0..peak | 300 K + 1700 K · heat / peak |
-//! | temperature | EmberGen's heat 0..peak | 900 K + 1100 K · heat / peak |
+//! | temperature | EmberGen's heat 0..peak | 1300 K + 700 K · heat / peak |
 //!
-//! EmberGen writes flames as sheets one voxel thin, with heat that falls to a fifth of its peak within them.
-//! What burns glows; from 300 K on, only scattered voxels would. 900 K is where soot begins to be seen.
+//! EmberGen writes flames as sheets a voxel thin, with heat that falls to a fifth of its peak within them. What
+//! burns glows: the luminous parts of sooting flames lie between some 1300 K and 2000 K. Mapped from 300 K on,
+//! only scattered voxels would shine, and the lattice with them.
 //!
 //! The peaks are those of the one file. Over a sequence the numbers of one frame must be kept, or the fire
 //! would flicker with the peak of each frame.
@@ -28,8 +29,8 @@ const SMOKE_PEAK: f64 = 0.5e-6;
 const BLENDER_DENSE_SMOKE: f64 = 0.3;
 /// Ambient temperature, K.
 const AMBIENT_K: f64 = 300.0;
-/// Temperature of the coolest burning gas of an EmberGen flame: soot's first visible glow, K.
-const FIRST_GLOW_K: f64 = 900.0;
+/// Temperature of the coolest burning gas of an EmberGen flame, K.
+const LUMINOUS_K: f64 = 1300.0;
 /// Temperature assumed for the hottest voxel of a field without units, K.
 const PEAK_K: f64 = 2000.0;
 /// Above this, artist scales included, no solver heat is meant, K.
@@ -156,7 +157,7 @@ fn temperature(grid: &Grid, producer: Producer, flaws: &mut Vec<String>) -> Fiel
             AMBIENT_K,
             "Blender's maximum flame temperature is not in the file",
         ),
-        Producer::EmberGen => (FIRST_GLOW_K, "it has no units and what burns glows"),
+        Producer::EmberGen => (LUMINOUS_K, "it has no units and what burns glows"),
         _ => (AMBIENT_K, "it has no units"),
     };
     flaws.push(format!(

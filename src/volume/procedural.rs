@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn the_flame_does_not_touch_its_box() {
         let volume = torch();
-        let bounds = volume.grids[0].occupied();
+        let bounds = volume.grids[0].bulk();
         assert!(
             bounds.min.cmpgt(IVec3::ZERO).all() && bounds.max.cmplt(DIMS).all(),
             "{bounds:?}"
