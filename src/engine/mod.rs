@@ -5,7 +5,7 @@
 //! new one. Nothing queues up: a submit replaces the job that waits and throws away what was not drained.
 //!
 //! The engine has a thread of its own, which packs media and runs the passes on its own rayon pool; the window
-//! never waits for a lock (see [`Engine::drain`]). A worker's panic becomes an [`Update::Failed`]; the next job
+//! never waits for a lock (see [`Engine::drain`]). A worker's panic becomes an [`News::Failed`]; the next job
 //! runs as if nothing had happened.
 
 pub mod picture;
