@@ -1,4 +1,4 @@
-//! The command line: what was typed ([`args`]), what it means ([`command`]), and doing it.
+//! The command line: what was typed (`args`), what it means (`command`), and doing it.
 //!
 //! Exit codes: 0 done, 1 failed, 2 wrong usage (an unknown flag, key, value or file ending).
 

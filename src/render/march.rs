@@ -18,7 +18,7 @@
 //! Sixteen rays of a 4 × 4 block of pixels go side by side, each at its own sample, so a lane's arithmetic
 //! depends on its ray alone. Steps are counted from where the ray enters the domain; the bricks without soot
 //! are found by a walk over the table of bricks and their steps are jumped over. Sums run in blocks of
-//! [`FLUSH`] samples that are then added to totals, and the transmittance is taken afresh from the summed
+//! `FLUSH` samples that are then added to totals, and the transmittance is taken afresh from the summed
 //! column at each block's end: ten thousand steps of an f32 sum then lose no more than a few of its last bits.
 
 use crate::math::lanes::{self, Kernel, LANES, Lanes};

@@ -78,7 +78,7 @@ impl Grid {
         self.bounds
     }
 
-    /// The box of the field's bulk: voxels that depart from the background by more than [`BULK`] of the greatest
+    /// The box of the field's bulk: voxels that depart from the background by more than `BULK` of the greatest
     /// departure. Empty for a field that is background everywhere. Found at the first call, then remembered.
     pub fn bulk(&self) -> IndexBox {
         *self.bulk.get_or_init(|| {
