@@ -17,7 +17,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
 /// Whether a file could be written here, asked before the hours of work that it is to hold.
 ///
 /// # Errors
-/// As [`write`] would.
+/// As [`write()`] would.
 pub fn check_writable(path: &Path) -> Result<(), ExportError> {
     match std::fs::metadata(path) {
         Ok(about) if about.is_dir() => Err(refused(path, Error::from(ErrorKind::IsADirectory))),

@@ -1,6 +1,6 @@
 //! All that a person can set: the scene file.
 //!
-//! A [`Project`] is plain data, written and read as TOML ([`file`]), changed key by key ([`set`]), and turned
+//! A [`Project`] is plain data, written and read as TOML ([`mod@file`]), changed key by key ([`set`]), and turned
 //! into what the floors below take: [`Project::job`] for the renderer, [`Project::view`] for the picture.
 
 pub mod file;

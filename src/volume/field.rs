@@ -168,7 +168,7 @@ fn nearest(name: &str, volume: &Volume) -> String {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Producer {
-    /// Whoever [`recognise`](super::recognise) says.
+    /// Whoever [`recognise`](super::recognise()) says.
     #[default]
     Auto,
     /// Blender's Mantaflow: density, flame 0..1, temperature as solver heat.

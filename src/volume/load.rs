@@ -16,7 +16,7 @@ const HEAD_BYTES: u64 = 256;
 
 /// Opens one file, or several that belong together, as one volume. What a file is, is told by its bytes.
 ///
-/// Grids keep the units of their files; [`preset`](super::preset) says what they mean. Where files of one
+/// Grids keep the units of their files; [`preset`](super::preset()) says what they mean. Where files of one
 /// field come together, dense boxes must be equal; the box of a sparse file is only where its voxels are and
 /// may differ.
 ///

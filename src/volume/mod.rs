@@ -1,7 +1,7 @@
 //! Grids in memory and on disk, and what their numbers mean.
 //!
 //! [`open`] recognises a file by its bytes and gives a [`Volume`] of named [`Grid`]s in the units of the
-//! file. [`recognise`] guesses who wrote it and [`preset`] proposes the mapping to soot volume fraction,
+//! file. [`recognise()`] guesses who wrote it and [`preset()`] proposes the mapping to soot volume fraction,
 //! flame and kelvin, with everything it had to assume in words. [`summarise`] says all of it as data.
 
 mod build;
