@@ -89,7 +89,7 @@ fn a_coarse_pass_is_the_picture_in_small() {
 }
 
 #[test]
-fn a_cancel_stops_within_a_row_of_packets() {
+fn a_cancel_stops_within_a_packet() {
     let scene = common::torch_scene(1.0);
     let settings = Settings {
         size: [400, 400],

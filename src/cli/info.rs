@@ -19,7 +19,10 @@ pub(super) fn run(project: &Project) -> Result<(), CliError> {
     if let Ok(job) = &job {
         text.push_str(&made_of_it(job, &volume));
     } else {
-        let notes = summary.notes.iter().chain(&summary.preset.flaws);
+        let notes = summary
+            .notes
+            .iter()
+            .chain(summary.preset.assumptions.iter().map(|it| &it.words));
         text.push_str(&flaws(&notes.map(String::as_str).collect::<Vec<_>>()));
     }
     output::say(text.trim_end());

@@ -1,8 +1,9 @@
 //! Background rendering for the window: [`Engine::submit`] a job, [`Engine::drain`] its tiles.
 //!
-//! The latest job wins. A generation is an atomic number that a submit raises: workers ask for it once for each
-//! row of packets, and publishing asks again inside the lock, so that no tile of an old picture ever lands in a
-//! new one. Nothing queues up: a submit replaces the job that waits and throws away what was not drained.
+//! The latest job wins. A generation is an atomic number that a submit raises: workers ask for it before each
+//! packet of rays, and publishing asks again inside the lock, so that no tile of an old picture ever lands in a
+//! new one. Jobs do not queue up: a submit replaces the job that waits and throws away what was not drained. What
+//! waits to be drained is at most the tiles of the running job.
 //!
 //! The engine has a thread of its own, which packs media and runs the passes on its own rayon pool; the window
 //! never waits for a lock (see [`Engine::drain`]). A worker's panic becomes an [`News::Failed`]; the next job

@@ -3,14 +3,15 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use thiserror::Error;
 
-use super::settings::{FieldSettings, Project, Up};
+use super::error::ProjectError;
+use super::fields::field_maps;
+use super::settings::{Project, Up};
 use crate::render::develop::ViewParams;
 use crate::render::{Flaws, Settings, SettingsError};
-use crate::scene::camera::{CameraError, FRAMING_FOV_DEG};
+use crate::scene::camera::FRAMING_FOV_DEG;
 use crate::scene::{Camera, Flame, FlameParams, Placement, Scene, flame};
-use crate::volume::{self, FieldKind, FieldMap, FieldMaps, Producer, UpAxis, Volume};
+use crate::volume::{self, FieldMaps, Producer, UpAxis, Volume};
 
 /// A picture to be made: comparable, so that the window submits only what changed, and cheap to clone.
 #[derive(Debug, Clone)]
@@ -53,70 +54,6 @@ impl Job {
     }
 }
 
-/// Why a project cannot be rendered.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum ProjectError {
-    /// A number lies outside its range.
-    #[error("{key} is {value}: it must lie between {min} and {max}")]
-    Range {
-        /// Dotted key of the scene file.
-        key: &'static str,
-        /// What was set.
-        value: f64,
-        /// Least allowed.
-        min: f64,
-        /// Greatest allowed.
-        max: f64,
-    },
-    /// A factor or an offset is no number.
-    #[error("{key} is {value}: it must be a finite number")]
-    NotFinite {
-        /// Dotted key of the scene file.
-        key: String,
-        /// What was set.
-        value: f64,
-    },
-    /// Nothing lies between a field's bounds.
-    #[error(
-        "{key} is {min}, which is not below the greatest value {max}: give a min that is at most max"
-    )]
-    NoInterval {
-        /// Dotted key of the scene file.
-        key: String,
-        /// The least value.
-        min: f64,
-        /// The greatest value.
-        max: f64,
-    },
-    /// A field names a grid that the file does not have.
-    #[error("{key} is \"{name}\", but the file has {available}{hint}")]
-    NoSuchGrid {
-        /// Dotted key of the scene file.
-        key: String,
-        /// What was set.
-        name: String,
-        /// The grids there are.
-        available: String,
-        /// "; did you mean …?" or nothing.
-        hint: String,
-    },
-    /// Nothing in the file can glow or absorb.
-    #[error(
-        "nothing to render: no grid is mapped to soot or smoke. The file has {available}; set volume.soot.grid"
-    )]
-    NothingToRender {
-        /// The grids there are.
-        available: String,
-    },
-    /// A number of the render section.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
-    /// The camera cannot see.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-}
-
 impl Project {
     /// The picture that this project asks for, of the given volume.
     ///
@@ -131,25 +68,8 @@ impl Project {
         let preset = volume::preset(producer, volume);
         let mut flaws = Flaws::default();
         flaws.extend(volume.notes.iter().cloned());
-        flaws.extend(preset.flaws.iter().cloned());
-
         let fields = &self.volume;
-        let merge = |kind, settings, base| merged(volume, kind, settings, base);
-        let maps = FieldMaps {
-            soot: merge(FieldKind::Soot, &fields.soot, preset.maps.soot)?,
-            smoke: merge(FieldKind::Smoke, &fields.smoke, preset.maps.smoke)?,
-            flame: merge(FieldKind::Flame, &fields.flame, preset.maps.flame)?,
-            temperature: merge(
-                FieldKind::Temperature,
-                &fields.temperature,
-                preset.maps.temperature,
-            )?,
-        };
-        if maps.soot.is_none() && maps.smoke.is_none() {
-            return Err(ProjectError::NothingToRender {
-                available: grid_names(volume),
-            });
-        }
+        let maps = field_maps(fields, volume, producer, &preset, &mut flaws)?;
         let up = match fields.up {
             Up::Auto => preset.up,
             Up::Y => UpAxis::Y,
@@ -177,6 +97,7 @@ impl Project {
             smoke_amount: self.smoke.amount,
             ambient_k: self.air.temperature_k,
         };
+        flame.check(volume)?;
         Ok(Job {
             volume: Arc::clone(volume),
             flame,
@@ -283,90 +204,4 @@ fn file_voxel_size(volume: &Volume, maps: &FieldMaps) -> f64 {
         .map_or(1.0, |grid| {
             grid.world_from_index().matrix3.determinant().abs().cbrt()
         })
-}
-
-/// A preset's mapping with a person's overrides.
-fn merged(
-    volume: &Volume,
-    kind: FieldKind,
-    set: &FieldSettings,
-    base: Option<FieldMap>,
-) -> Result<Option<FieldMap>, ProjectError> {
-    if set.grid.as_deref() == Some("") {
-        return Ok(None);
-    }
-    let mut map = match (&set.grid, base) {
-        (None, None) => return Ok(None),
-        (Some(name), Some(base)) if base.grid.eq_ignore_ascii_case(name) => base,
-        // Another grid than the preset's: its numbers are in unknown units, so they stand as they are.
-        (Some(name), _) => as_it_stands(kind, name),
-        (None, Some(base)) => base,
-    };
-    if volume.grid(&map.grid).is_none() {
-        let names = volume.grids.iter().map(|grid| grid.name.as_str());
-        return Err(ProjectError::NoSuchGrid {
-            key: format!("volume.{}.grid", kind.name()),
-            hint: super::set::did_you_mean(&map.grid, names)
-                .map_or(String::new(), |name| format!("; did you mean \"{name}\"?")),
-            available: grid_names(volume),
-            name: map.grid,
-        });
-    }
-    for (target, value) in [
-        (&mut map.scale, set.scale),
-        (&mut map.offset, set.offset),
-        (&mut map.min, set.min),
-        (&mut map.max, set.max),
-    ] {
-        if let Some(value) = value {
-            *target = value;
-        }
-    }
-    let key = |part: &str| format!("volume.{}.{part}", kind.name());
-    for (part, value) in [("scale", map.scale), ("offset", map.offset)] {
-        if !value.is_finite() {
-            return Err(ProjectError::NotFinite {
-                key: key(part),
-                value,
-            });
-        }
-    }
-    // A NaN has no order: it is refused, too.
-    if map
-        .min
-        .partial_cmp(&map.max)
-        .is_none_or(std::cmp::Ordering::is_gt)
-    {
-        return Err(ProjectError::NoInterval {
-            key: key("min"),
-            min: map.min,
-            max: map.max,
-        });
-    }
-    Ok(Some(map))
-}
-
-/// The mapping of a grid whose numbers are taken as physical ones, kept to what a fire can hold.
-fn as_it_stands(kind: FieldKind, grid: &str) -> FieldMap {
-    let greatest = match kind {
-        // A hundred times a sooting flame.
-        FieldKind::Soot | FieldKind::Smoke => 1e-3,
-        FieldKind::Flame => 1.0,
-        // Hotter than any flame.
-        FieldKind::Temperature => 6000.0,
-    };
-    FieldMap::new(grid, 1.0, 0.0, 0.0, greatest)
-}
-
-fn grid_names(volume: &Volume) -> String {
-    let names: Vec<String> = volume
-        .grids
-        .iter()
-        .map(|grid| format!("\"{}\"", grid.name))
-        .collect();
-    if names.is_empty() {
-        "no grids".into()
-    } else {
-        names.join(", ")
-    }
 }

@@ -130,7 +130,7 @@ mod tests {
             ..FieldMaps::default()
         };
         let volume = Volume::from_grids(vec![grid], "sparse");
-        crate::scene::packing_for_tests(&volume, &maps)
+        crate::scene::pack_for_tests(&volume, &maps).unwrap()
     }
 
     proptest! {

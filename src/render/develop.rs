@@ -5,6 +5,7 @@
 use rayon::prelude::*;
 
 use super::film::{Film, Pixel};
+use crate::colour::cie;
 use crate::colour::display::{BakedView, Curve, View};
 
 /// What a person sets of the view; exposure is relative to the automatic one.
@@ -38,7 +39,19 @@ const BRIGHT: f64 = 0.995;
 /// goes above and rolls off along the curve.
 const BRIGHT_LEVEL: f64 = 4.0;
 
+/// Least luminance that the automatic exposure makes display white, cd m⁻²: where mesopic vision ends and colours are
+/// no longer seen (CIE 191:2010). Soot at room temperature stays dark.
+const DARKEST_WHITE_CD_M2: f64 = 0.005;
+
+/// Share of display white below which a picture counts as black: half a step of 8 bits is seen by no one.
+const BLACK: f64 = 1.0 / 512.0;
+
 impl Metering {
+    /// Whether the brightest parts stay below what a display shows at this exposure.
+    pub fn is_black(&self) -> bool {
+        self.bright_y * self.exposure < BLACK
+    }
+
     /// Meters a film. Non-finite pixels are left out.
     pub fn of(film: &Film) -> Self {
         let usable = |pixel: &&Pixel| pixel.xyz.iter().all(|v| v.is_finite());
@@ -72,8 +85,9 @@ impl Metering {
                 .sum::<f64>()
                 / brightest.len() as f64
         };
+        let brightest_exposure = cie::MAX_LUMINOUS_EFFICACY / DARKEST_WHITE_CD_M2;
         Self {
-            exposure: BRIGHT_LEVEL / bright_y,
+            exposure: (BRIGHT_LEVEL / bright_y).min(brightest_exposure),
             white_xyz: [mean(0), mean(1), mean(2)],
             bright_y,
         }
@@ -102,6 +116,29 @@ pub fn develop(film: &Film, view: &BakedView) -> Vec<[f32; 3]> {
 mod tests {
     use super::*;
     use crate::render::Tile;
+
+    #[test]
+    fn a_fire_that_no_eye_would_see_is_not_made_bright() {
+        let metered = |y: f32| {
+            let mut film = Film::new([1, 1]);
+            let pixels = vec![Pixel {
+                xyz: [y, y, y],
+                opacity: [0.0; 3],
+            }];
+            film.merge(&Tile {
+                stride: 1,
+                sample: 0,
+                origin: [0, 0],
+                size: [1, 1],
+                pixels,
+                samples: 0,
+            });
+            Metering::of(&film)
+        };
+        assert!(metered(1e-20).is_black() && metered(0.0).is_black());
+        assert!(!metered(1e-6).is_black());
+        assert_eq!(metered(100.0).exposure, BRIGHT_LEVEL / 100.0);
+    }
 
     #[test]
     fn a_black_film_and_a_spoilt_pixel_do_not_upset_the_meter() {

@@ -43,11 +43,17 @@ pub struct Settings {
 #[non_exhaustive]
 pub enum SettingsError {
     /// A side is zero or too long.
-    #[error("the picture is {} × {} pixels: each side must be 1 to {MAX_SIDE}", .0[0], .0[1])]
+    #[error(
+        "the picture is {} × {} pixels: each side must be 1 to {MAX_SIDE}, and all together at most {} million",
+        .0[0], .0[1], MAX_PIXELS / 1_000_000
+    )]
     Size([u32; 2]),
     /// The step is not a number in its range.
     #[error("render.step_voxels is {0}: it must lie between {min} and {max}", min = STEP_RANGE[0], max = STEP_RANGE[1])]
     Step(f64),
+    /// There is no such set.
+    #[error("there is no set of {} wavelengths: choose 4, 6 or 8 (fitted), 16, 32 or 64 (plain)", .0.count())]
+    Wavelengths(WavelengthSet),
     /// Too few or too many rays.
     #[error("render.samples_per_pixel is {0}: it must lie between 1 and {MAX_SAMPLES}")]
     Samples(u32),
@@ -55,6 +61,8 @@ pub enum SettingsError {
 
 /// Longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
+/// Most pixels of a picture: 8192², a film of 1.6 GB and an export of about twice as much.
+pub const MAX_PIXELS: u64 = 1 << 26;
 /// Shortest and longest step in voxels. A step beyond the box is one step of its chord.
 pub const STEP_RANGE: [f64; 2] = [0.01, 64.0];
 /// Most rays for one pixel.
@@ -66,11 +74,15 @@ impl Settings {
     /// # Errors
     /// [`SettingsError`] names the first number that does not, its value and its range.
     pub fn validated(self) -> Result<Self, SettingsError> {
-        if !self.size.iter().all(|side| (1..=MAX_SIDE).contains(side)) {
+        let sides_fit = self.size.iter().all(|side| (1..=MAX_SIDE).contains(side));
+        if !sides_fit || self.pixels() > MAX_PIXELS {
             return Err(SettingsError::Size(self.size));
         }
         if !(STEP_RANGE[0]..=STEP_RANGE[1]).contains(&self.step_voxels) {
             return Err(SettingsError::Step(self.step_voxels));
+        }
+        if !WavelengthSet::ALL.contains(&self.wavelengths) {
+            return Err(SettingsError::Wavelengths(self.wavelengths));
         }
         if !(1..=MAX_SAMPLES).contains(&self.samples_per_pixel) {
             return Err(SettingsError::Samples(self.samples_per_pixel));

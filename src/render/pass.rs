@@ -65,7 +65,7 @@ fn offset(sample: u32) -> [f64; 2] {
 /// Renders one pass in the calling thread's rayon pool, tiles from the centre of the picture outwards, and hands
 /// each to `sink` from the worker that made it. `false` if it was cancelled before the last tile.
 ///
-/// The cancel is asked once for each row of packets. A camera that cannot see gives no tiles: settings and
+/// The cancel is asked before each packet of sixteen rays. A camera that cannot see gives no tiles: settings and
 /// camera are checked at the doors.
 pub fn render_pass(
     scene: &Scene,
@@ -118,10 +118,10 @@ fn render_tile(
     let mut samples = 0;
     let offset = offset(pass.sample);
     for top in (0..size[1]).step_by(PACKET_SIDE as usize) {
-        if cancel.is_cancelled() {
-            return None;
-        }
         for left in (0..size[0]).step_by(PACKET_SIDE as usize) {
+            if cancel.is_cancelled() {
+                return None;
+            }
             // Steps of a packet: which pixels, which rays, the march, and back to their places.
             let places: [Option<[u32; 2]>; LANES] = std::array::from_fn(|lane| {
                 let place = [

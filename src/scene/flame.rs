@@ -6,10 +6,10 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::fuel::Fuel;
 use super::medium::Medium;
-use super::packing;
+use super::packing::{self, Fields, PackingError};
 use crate::math::Aabb;
 use crate::physics::soot::{self, Hold, SootLaw, SootModel};
-use crate::volume::{FieldMaps, UpAxis, Volume};
+use crate::volume::{FieldMaps, Limits, UpAxis, Volume};
 
 /// How the file's axes and lengths lie in the world of metres with z up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,13 +55,40 @@ pub struct FlameParams {
     pub ambient_k: f64,
 }
 
+impl FlameParams {
+    /// Whether this volume's fields can be packed side by side.
+    ///
+    /// # Errors
+    /// They lie too far apart or fill too much of the air.
+    pub fn check(&self, volume: &Volume) -> Result<(), PackingError> {
+        let (amounts, _) = self.packed_amounts();
+        Fields {
+            volume,
+            maps: &self.maps,
+            amounts,
+            ambient_k: self.ambient_k,
+        }
+        .check(&Limits::default())
+    }
+
+    /// Weights of soot and smoke in the packed medium, and the factor that is left to the laws. With soot alone its
+    /// amount is such a factor, so that it can change without packing.
+    fn packed_amounts(&self) -> ([f64; 2], f64) {
+        let two_fields = self.maps.smoke.is_some() && self.smoke_amount > 0.0;
+        if two_fields || self.soot_amount <= 0.0 {
+            ([self.soot_amount, self.smoke_amount], 1.0)
+        } else {
+            ([1.0, 0.0], self.soot_amount)
+        }
+    }
+}
+
 /// What must be packed anew: everything about the medium except the laws.
 #[derive(Debug, Clone, PartialEq)]
 struct PackingKey {
     maps: FieldMaps,
     placement: Placement,
-    /// Soot and smoke as packed. Without a smoke field only the presence of soot counts, so that its amount
-    /// can change without packing.
+    /// Weights of soot and smoke.
     amounts: [f64; 2],
     ambient_k: f64,
 }
@@ -79,14 +106,11 @@ pub struct Flame {
 
 impl Flame {
     /// Makes the medium and its laws. What `before` has packed already is taken over if it is the same.
+    ///
+    /// Fields that [`FlameParams::check`] refuses are not packed: the medium is clear.
     pub fn new(volume: &Arc<Volume>, params: &FlameParams, before: Option<&Self>) -> Self {
         let radius_factor = soot::volume_fraction_factor(params.soot_hold, params.soot_radius_nm);
-        let two_fields = params.maps.smoke.is_some() && params.smoke_amount > 0.0;
-        let (amounts, common) = if two_fields || params.soot_amount <= 0.0 {
-            ([params.soot_amount, params.smoke_amount], 1.0)
-        } else {
-            ([1.0, 0.0], params.soot_amount)
-        };
+        let (amounts, common) = params.packed_amounts();
         let key = PackingKey {
             maps: params.maps.clone(),
             placement: params.placement,
@@ -97,16 +121,18 @@ impl Flame {
             before.filter(|before| Arc::ptr_eq(&before.volume, volume) && before.key == key);
         let medium = reusable.map_or_else(
             || {
-                let frame = params.placement.world_from_file();
-                let [soot, smoke] = key.amounts;
-                Arc::new(packing::pack(
+                let fields = Fields {
                     volume,
-                    &key.maps,
-                    soot,
-                    smoke,
-                    key.ambient_k,
-                    &frame,
-                ))
+                    maps: &key.maps,
+                    amounts,
+                    ambient_k: key.ambient_k,
+                };
+                let frame = params.placement.world_from_file();
+                Arc::new(
+                    fields
+                        .pack(&frame, &Limits::default())
+                        .unwrap_or_else(|_| packing::empty()),
+                )
             },
             |before| Arc::clone(&before.medium),
         );

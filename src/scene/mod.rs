@@ -11,21 +11,14 @@ pub mod fuel;
 pub mod medium;
 mod packing;
 pub mod quadrature;
+mod source;
 
 pub use camera::Camera;
 pub use flame::{Flame, FlameParams, Placement};
 pub use fuel::Fuel;
 pub use medium::Medium;
+pub use packing::PackingError;
 pub use quadrature::WavelengthSet;
-
-/// Packs a volume whose fields are physical and in metres, for tests of the floors above.
-#[cfg(test)]
-pub(crate) fn packing_for_tests(
-    volume: &crate::volume::Volume,
-    maps: &crate::volume::FieldMaps,
-) -> Medium {
-    packing::pack(volume, maps, 1.0, 1.0, 300.0, &glam::DAffine3::IDENTITY)
-}
 
 /// Everything that light passes on its way to the film.
 #[derive(Debug, Clone)]
@@ -34,4 +27,19 @@ pub struct Scene {
     pub flame: Flame,
     /// The eye.
     pub camera: Camera,
+}
+
+/// Packs a volume whose fields are physical and in metres, for tests of the floors above.
+#[cfg(test)]
+pub(crate) fn pack_for_tests(
+    volume: &crate::volume::Volume,
+    maps: &crate::volume::FieldMaps,
+) -> Result<Medium, PackingError> {
+    let fields = packing::Fields {
+        volume,
+        maps,
+        amounts: [1.0, 1.0],
+        ambient_k: 300.0,
+    };
+    fields.pack(&glam::DAffine3::IDENTITY, &crate::volume::Limits::default())
 }

@@ -36,6 +36,15 @@ impl FieldKind {
         }
     }
 
+    /// Greatest physical value that a mapping may give: all of the gas is soot, all of it burns, 100 000 K. The least
+    /// is 0 for every kind.
+    pub fn greatest(self) -> f64 {
+        match self {
+            Self::Soot | Self::Smoke | Self::Flame => 1.0,
+            Self::Temperature => 1e5,
+        }
+    }
+
     /// Unit of the mapped values: "f_v" (dimensionless volume fraction), "" (0 to 1) or "K".
     pub fn unit(self) -> &'static str {
         match self {
@@ -250,8 +259,26 @@ pub struct Preset {
     pub up: UpAxis,
     /// Edge of a voxel in metres, where the file has no physical size. `None`: file units are metres.
     pub voxel_size_m: Option<f64>,
-    /// Everything that was assumed, in words.
-    pub flaws: Vec<String>,
+    /// Everything that was assumed.
+    pub assumptions: Vec<Assumption>,
+}
+
+/// Something that a file does not say and a preset had to assume.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Assumption {
+    /// What it is about: a person who sets this settles it.
+    pub about: About,
+    /// The assumption in words.
+    pub words: String,
+}
+
+/// What an assumption is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    /// The mapping of a field.
+    Field(FieldKind),
+    /// The size of a voxel.
+    VoxelSize,
 }
 
 #[cfg(test)]

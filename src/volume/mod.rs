@@ -28,12 +28,14 @@ mod text;
 use std::path::PathBuf;
 
 pub use error::VolumeError;
-pub use field::{FieldKind, FieldMap, FieldMaps, Preset, Producer, Recognised, UpAxis};
+pub use field::{
+    About, Assumption, FieldKind, FieldMap, FieldMaps, Preset, Producer, Recognised, UpAxis,
+};
 pub use grid::{Border, BrickRef, Grid};
 pub use lattice::{BRICK_EDGE, BRICK_LEN, IndexBox, brick_of};
 pub use limits::Limits;
 pub use load::open;
-pub use preset::preset;
+pub use preset::{mapping, preset};
 pub use recognise::recognise;
 pub use summary::{GridSummary, MappedField, Summary, summarise};
 

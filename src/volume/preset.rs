@@ -16,7 +16,7 @@
 //! The peaks are those of the one file. Over a sequence the numbers of one frame must be kept, or the fire
 //! would flicker with the peak of each frame.
 
-use super::field::{FieldMap, FieldMaps, Preset, Producer, UpAxis};
+use super::field::{About, Assumption, FieldKind, FieldMap, FieldMaps, Preset, Producer, UpAxis};
 use super::naming::figures;
 use super::recognise::{Cast, is_fraction, is_kelvin, peak, recognise};
 use super::{Grid, Volume};
@@ -52,48 +52,76 @@ pub fn preset(producer: Producer, volume: &Volume) -> Preset {
         named => named,
     };
     let cast = Cast::of(volume);
-    let mut flaws = Vec::new();
-    let soot = soot(&cast, producer, &mut flaws);
+    let mut assumed = Vec::new();
+    let soot = soot(&cast, producer, &mut assumed);
     let mut maps = FieldMaps {
         smoke: smoke(&cast, producer, soot.as_ref()),
         soot,
-        flame: cast.flame.map(|grid| flame(grid, producer, &mut flaws)),
+        flame: cast.flame.map(|grid| flame(grid, producer, &mut assumed)),
         temperature: cast
             .temperature
-            .map(|grid| temperature(grid, producer, &mut flaws)),
+            .map(|grid| temperature(grid, producer, &mut assumed)),
     };
-    fill_soot(&mut maps, &cast, &mut flaws);
-    fill_temperature(&mut maps, &cast, &mut flaws);
+    fill_soot(&mut maps, &cast, &mut assumed);
+    fill_temperature(&mut maps, &cast, &mut assumed);
     Preset {
         maps,
         up: match producer {
             Producer::Houdini => UpAxis::Y,
             _ => UpAxis::Z,
         },
-        voxel_size_m: guessed_voxel(volume, producer, &mut flaws),
-        flaws,
+        voxel_size_m: guessed_voxel(volume, producer, &mut assumed),
+        assumptions: assumed,
     }
 }
 
+/// How a grid that a person chose for a field is mapped, with what had to be assumed.
+///
+/// A grid in physical units stands as it is; under [`Producer::Physical`] every grid does.
+pub fn mapping(kind: FieldKind, grid: &Grid, producer: Producer) -> (FieldMap, Vec<Assumption>) {
+    let mut assumed = Vec::new();
+    let map = match kind {
+        FieldKind::Soot => glowing(grid, producer, &mut assumed),
+        FieldKind::Smoke => smoking(grid, producer),
+        FieldKind::Flame => flame(grid, producer, &mut assumed),
+        FieldKind::Temperature => temperature(grid, producer, &mut assumed),
+    };
+    (map, assumed)
+}
+
+/// Notes an assumption about a field.
+fn assume(assumed: &mut Vec<Assumption>, kind: FieldKind, words: String) {
+    assumed.push(Assumption {
+        about: About::Field(kind),
+        words,
+    });
+}
+
 /// Soot that the file itself carries: volume fractions as they stand.
-fn soot(cast: &Cast, producer: Producer, flaws: &mut Vec<String>) -> Option<FieldMap> {
+fn soot(cast: &Cast, producer: Producer, assumed: &mut Vec<Assumption>) -> Option<FieldMap> {
     let named = cast.soot;
     let fraction = named.or(cast.smoke).filter(|grid| is_fraction(grid));
     let taken = match producer {
         Producer::Physical => named.or(cast.smoke),
         _ => named.or(fraction.filter(|_| cast.flame.is_none() || is_physical(cast))),
     }?;
-    if !is_fraction(taken) && peak(taken) > 0.0 {
+    Some(glowing(taken, producer, assumed))
+}
+
+/// A grid as glowing soot.
+fn glowing(grid: &Grid, producer: Producer, assumed: &mut Vec<Assumption>) -> FieldMap {
+    if !is_fraction(grid) && peak(grid) > 0.0 {
         if producer != Producer::Physical {
-            return Some(normalised(taken, SOOT_PEAK, "soot", flaws));
+            return normalised(grid, SOOT_PEAK, FieldKind::Soot, assumed);
         }
-        flaws.push(format!(
+        let words = format!(
             "{} peaks at {}, above any soot volume fraction: clamped to {FRACTION_MAX:e}",
-            taken.name,
-            figures(peak(taken))
-        ));
+            grid.name,
+            figures(peak(grid))
+        );
+        assume(assumed, FieldKind::Soot, words);
     }
-    Some(FieldMap::new(&taken.name, 1.0, 0.0, 0.0, FRACTION_MAX))
+    FieldMap::new(&grid.name, 1.0, 0.0, 0.0, FRACTION_MAX)
 }
 
 fn is_physical(cast: &Cast) -> bool {
@@ -101,14 +129,22 @@ fn is_physical(cast: &Cast) -> bool {
 }
 
 /// A field without units, scaled so that its peak becomes `physical_peak`.
-fn normalised(grid: &Grid, physical_peak: f64, field: &str, flaws: &mut Vec<String>) -> FieldMap {
+fn normalised(
+    grid: &Grid,
+    physical_peak: f64,
+    kind: FieldKind,
+    assumed: &mut Vec<Assumption>,
+) -> FieldMap {
     let raw = peak(grid);
     let scale = if raw > 0.0 { physical_peak / raw } else { 0.0 };
-    flaws.push(format!(
-        "{} has no units: its peak {} was assumed to be {field} {physical_peak}",
+    let words = format!(
+        "{} has no units: its peak {} was assumed to be {} {}",
         grid.name,
-        figures(raw)
-    ));
+        figures(raw),
+        kind.name(),
+        figures(physical_peak)
+    );
+    assume(assumed, kind, words);
     FieldMap::new(&grid.name, scale, 0.0, 0.0, physical_peak)
 }
 
@@ -117,34 +153,42 @@ fn smoke(cast: &Cast, producer: Producer, soot: Option<&FieldMap>) -> Option<Fie
     let grid = cast
         .smoke
         .filter(|grid| soot.is_none_or(|soot| soot.grid != grid.name))?;
+    Some(smoking(grid, producer))
+}
+
+/// A grid as cold smoke.
+fn smoking(grid: &Grid, producer: Producer) -> FieldMap {
+    if producer == Producer::Physical || is_fraction(grid) {
+        return FieldMap::new(&grid.name, 1.0, 0.0, 0.0, FRACTION_MAX);
+    }
     let scale = match producer {
-        Producer::Physical => 1.0,
         Producer::Houdini => SMOKE_PEAK,
         _ => SMOKE_PEAK / BLENDER_DENSE_SMOKE,
     };
-    Some(FieldMap::new(&grid.name, scale, 0.0, 0.0, SMOKE_PEAK))
+    FieldMap::new(&grid.name, scale, 0.0, 0.0, SMOKE_PEAK)
 }
 
 /// Progress of the reaction. Blender and Houdini write 0..1; EmberGen writes an intensity.
-fn flame(grid: &Grid, producer: Producer, flaws: &mut Vec<String>) -> FieldMap {
+fn flame(grid: &Grid, producer: Producer, assumed: &mut Vec<Assumption>) -> FieldMap {
     if producer == Producer::EmberGen || peak(grid) > 4.0 {
-        return normalised(grid, 1.0, "flame", flaws);
+        return normalised(grid, 1.0, FieldKind::Flame, assumed);
     }
     FieldMap::new(&grid.name, 1.0, 0.0, 0.0, 1.0)
 }
 
-fn temperature(grid: &Grid, producer: Producer, flaws: &mut Vec<String>) -> FieldMap {
+fn temperature(grid: &Grid, producer: Producer, assumed: &mut Vec<Assumption>) -> FieldMap {
     let raw = peak(grid);
+    let mut assume = |words| assume(assumed, FieldKind::Temperature, words);
     if is_kelvin(grid) || producer == Producer::Physical {
         if raw > FLAME_CEILING_K {
-            flaws.push(format!(
+            assume(format!(
                 "{} peaks at {} K, hotter than any flame: clamped to {FLAME_CEILING_K} K",
                 grid.name,
                 figures(raw)
             ));
         }
         if !is_kelvin(grid) {
-            flaws.push(format!(
+            assume(format!(
                 "{} peaks at {}: taken as kelvin, as you said",
                 grid.name,
                 figures(raw)
@@ -160,7 +204,7 @@ fn temperature(grid: &Grid, producer: Producer, flaws: &mut Vec<String>) -> Fiel
         Producer::EmberGen => (LUMINOUS_K, "it has no units and what burns glows"),
         _ => (AMBIENT_K, "it has no units"),
     };
-    flaws.push(format!(
+    assume(format!(
         "{} is solver heat with a peak of {}: mapped to {coolest} K at 0 and {PEAK_K} K at the peak, because {why}",
         grid.name,
         figures(raw)
@@ -181,39 +225,42 @@ fn rise(grid: &Grid, raw_peak: f64, coolest: f64) -> FieldMap {
 }
 
 /// Finds something that glows where the file names no soot: the flame, else the smoke, else what is hot.
-fn fill_soot(maps: &mut FieldMaps, cast: &Cast, flaws: &mut Vec<String>) {
+fn fill_soot(maps: &mut FieldMaps, cast: &Cast, assumed: &mut Vec<Assumption>) {
     if maps.soot.is_some() {
         return;
     }
     if let (Some(grid), Some(flame)) = (cast.flame, &maps.flame) {
         let scale = SOOT_PEAK * flame.scale;
         maps.soot = Some(FieldMap::new(&grid.name, scale, 0.0, 0.0, SOOT_PEAK));
-        flaws.push(format!(
+        let words = format!(
             "no soot grid: assumed from {}, at most {SOOT_PEAK:e}",
             grid.name
-        ));
+        );
+        assume(assumed, FieldKind::Soot, words);
     } else if let Some(grid) = cast.smoke {
         maps.smoke = None;
-        flaws.push(format!(
+        let words = format!(
             "no flame or soot grid: {} is taken as glowing soot",
             grid.name
-        ));
-        maps.soot = Some(normalised(grid, SOOT_PEAK, "soot", flaws));
+        );
+        assume(assumed, FieldKind::Soot, words);
+        maps.soot = Some(normalised(grid, SOOT_PEAK, FieldKind::Soot, assumed));
     } else if let (Some(grid), Some(kelvin)) = (cast.temperature, &maps.temperature) {
         // f_v rises from 0 at the first glow to the peak at the hottest voxel, as an affine map of the raw value.
         let hottest = kelvin.apply(peak(grid)).min(PEAK_K);
         let slope = SOOT_PEAK / (hottest - GLOW_K).max(1.0);
         let (scale, offset) = (slope * kelvin.scale, slope * (kelvin.offset - GLOW_K));
         maps.soot = Some(FieldMap::new(&grid.name, scale, offset, 0.0, SOOT_PEAK));
-        flaws.push(format!(
+        let words = format!(
             "no soot, flame or density grid: soot assumed where {} is above {GLOW_K} K, {SOOT_PEAK:e} at {hottest:.0} K",
             grid.name
-        ));
+        );
+        assume(assumed, FieldKind::Soot, words);
     }
 }
 
 /// Heats what glows where the file has no temperature.
-fn fill_temperature(maps: &mut FieldMaps, cast: &Cast, flaws: &mut Vec<String>) {
+fn fill_temperature(maps: &mut FieldMaps, cast: &Cast, assumed: &mut Vec<Assumption>) {
     if maps.temperature.is_some() {
         return;
     }
@@ -221,26 +268,34 @@ fn fill_temperature(maps: &mut FieldMaps, cast: &Cast, flaws: &mut Vec<String>) 
         return;
     };
     let raw = peak(grid);
-    flaws.push(format!(
+    let words = format!(
         "no temperature grid: assumed from {}, {AMBIENT_K} K at 0 to {PEAK_K} K at its peak {}",
         grid.name,
         figures(raw)
-    ));
+    );
+    assume(assumed, FieldKind::Temperature, words);
     maps.temperature = Some(rise(grid, raw, AMBIENT_K));
 }
 
 /// A voxel size where the file has none: the report formats, and EmberGen's voxels of 1 unit.
-fn guessed_voxel(volume: &Volume, producer: Producer, flaws: &mut Vec<String>) -> Option<f64> {
+fn guessed_voxel(
+    volume: &Volume,
+    producer: Producer,
+    assumed: &mut Vec<Assumption>,
+) -> Option<f64> {
     let unit_voxels = volume
         .grids
         .first()
         .is_some_and(|grid| (grid.voxel_size() - 1.0).abs().max_element() < 1e-6);
     let unknown = !volume.voxel_size_is_known || producer == Producer::EmberGen && unit_voxels;
     unknown.then(|| {
-        flaws.push(format!(
-            "the file has no physical size: voxels of {} mm assumed",
-            GUESSED_VOXEL_M * 1000.0
-        ));
+        assumed.push(Assumption {
+            about: About::VoxelSize,
+            words: format!(
+                "the file has no physical size: voxels of {} mm assumed",
+                GUESSED_VOXEL_M * 1000.0
+            ),
+        });
         GUESSED_VOXEL_M
     })
 }

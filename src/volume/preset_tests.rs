@@ -40,9 +40,9 @@ fn blender_heat_becomes_kelvin_and_flame_becomes_soot() {
     assert!(near(top(maps.temperature.as_ref(), 2.4), 2000.0));
     assert!(near(top(maps.temperature.as_ref(), 0.0), 300.0));
     assert!(
-        plan.flaws.iter().any(|flaw| flaw.contains("2.400")),
+        plan.assumptions.iter().any(|it| it.words.contains("2.400")),
         "{:?}",
-        plan.flaws
+        plan.assumptions
     );
     assert_eq!(plan.voxel_size_m, None);
 }
@@ -99,9 +99,9 @@ fn missing_fields_are_assumed_and_said() {
         );
         assert!(plan.maps.temperature.is_some(), "{grids:?}");
         assert!(
-            plan.flaws.iter().any(|flaw| flaw.contains(words)),
+            plan.assumptions.iter().any(|it| it.words.contains(words)),
             "{:?}",
-            plan.flaws
+            plan.assumptions
         );
         assert!(plan.maps.check(&volume).is_ok());
     }

@@ -15,9 +15,9 @@ use rayon::prelude::*;
 use super::{Border, Grid, Volume};
 
 /// Voxels of the grid.
-const DIMS: IVec3 = IVec3::new(88, 88, 184);
+const DIMS: IVec3 = IVec3::new(72, 72, 152);
 /// Edge of a voxel, m.
-const VOXEL_M: f64 = 0.0025;
+const VOXEL_M: f64 = 0.003;
 /// Height at which the last fuel is burnt, m.
 const HEIGHT_M: f32 = 0.42;
 /// Radius of the fuel's outlet, m.
@@ -29,8 +29,8 @@ const SOOTIEST: f32 = 0.44;
 /// Half width of the soot's layer in mixture fraction.
 const SOOT_WIDTH: f32 = 0.12;
 /// Amplitudes of the warp where it is fully grown, m: swaying, eddies, curls.
-const SWAY_M: f32 = 0.030;
-const EDDY_M: f32 = 0.034;
+const SWAY_M: f32 = 0.042;
+const EDDY_M: f32 = 0.036;
 const CURL_M: f32 = 0.010;
 /// Most soot, volume fraction: a propane torch.
 const PEAK_SOOT: f32 = 3.0e-6;
@@ -84,7 +84,7 @@ pub fn torch() -> Volume {
 fn soot(point: Vec3, mixture: f32) -> f32 {
     let layer = (mixture - SOOTIEST) / SOOT_WIDTH;
     // Soot needs time to grow: none at the outlet, all of it a quarter of the way up.
-    let grown = smoothstep(0.004, 0.10, point.z);
+    let grown = smoothstep(0.008, 0.13, point.z);
     let density = PEAK_SOOT * grown * (-layer * layer).exp();
     // The gaussian's feet are cut where they no longer glow, so that air stays empty.
     if density < 2e-3 * PEAK_SOOT {
@@ -106,11 +106,11 @@ fn temperature(point: Vec3, mixture: f32) -> f32 {
 /// Mixture fraction, 1 in the fuel; `None` where the air is clean.
 fn mixture_fraction(point: Vec3) -> Option<f32> {
     let height = point.z / HEIGHT_M;
-    // The fuel's column first swells as it heats, then narrows as it burns.
-    let swell = 1.0 + 0.8 * smoothstep(-0.05, 0.22, height) - 1.0 * smoothstep(0.18, 1.1, height);
-    let radius = 1.5 * OUTLET_M * swell;
+    // The fuel's column is drawn in by the rising gas, swells as it heats, and narrows as it burns.
+    let swell = 0.55 + 0.75 * smoothstep(-0.08, 0.30, height) - 0.95 * smoothstep(0.22, 1.15, height);
+    let radius = 2.1 * OUTLET_M * swell;
     let [sway, eddy, curl] = [
-        SWAY_M * smoothstep(0.05, 0.9, height),
+        SWAY_M * smoothstep(0.0, 0.8, height),
         EDDY_M * smoothstep(-0.1, 0.5, height),
         CURL_M * smoothstep(0.0, 0.3, height),
     ];
@@ -131,7 +131,7 @@ fn mixture_fraction(point: Vec3) -> Option<f32> {
         swayed.y * 34.0,
         swayed.z * 16.0 + 0.6,
     ));
-    let burning = 1.0 - 0.95 * height.powf(1.3) + 1.9 * height * (1.1 - height) * tongue;
+    let burning = 1.0 - 0.95 * height.powf(1.3) + 2.3 * height * (1.1 - height) * tongue;
     Some((burning.max(0.0) * (1.0 - distance * distance).max(0.0)).min(1.0))
 }
 

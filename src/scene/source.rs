@@ -1,0 +1,121 @@
+//! A field as the packing reads it: a grid, its mapping, and how its lattice lies to the packed one.
+
+use glam::{DAffine3, IVec3};
+
+use super::medium::BRICK;
+use crate::math::Aabb;
+use crate::volume::{BrickRef, FieldMap, Grid, Volume, brick_of};
+
+/// A grid with its mapping, seen from the lattice of a reference grid.
+pub(super) struct Source<'a> {
+    grid: &'a Grid,
+    map: &'a FieldMap,
+    /// `None` where the grid's indices are the reference's own: values are copied, not resampled.
+    index_from_reference: Option<DAffine3>,
+    /// Multiplies the mapped value.
+    amount: f64,
+}
+
+impl<'a> Source<'a> {
+    /// `None` if the field has no mapping or no such grid.
+    pub(super) fn new(
+        volume: &'a Volume,
+        map: Option<&'a FieldMap>,
+        reference: &Grid,
+        amount: f64,
+    ) -> Option<Self> {
+        let map = map?;
+        let grid = volume.grid(&map.grid)?;
+        let index_from_reference = grid.world_from_index().inverse() * reference.world_from_index();
+        let aligned = index_from_reference.abs_diff_eq(DAffine3::IDENTITY, 1e-6);
+        Some(Self {
+            grid,
+            map,
+            index_from_reference: (!aligned).then_some(index_from_reference),
+            amount,
+        })
+    }
+
+    /// Whether the grid holds any data.
+    pub(super) fn has_data(&self) -> bool {
+        !self.grid.bounds().is_empty()
+    }
+
+    /// The physical values of a brick's samples, the first at voxel `first` of the reference lattice.
+    pub(super) fn read(&self, first: IVec3) -> impl Fn(IVec3) -> f64 {
+        // The brick and its upper neighbours, found once for all of their samples.
+        let corner = brick_of(first);
+        let near: [BrickRef<'_>; 8] = std::array::from_fn(|i| {
+            let i = i as i32;
+            self.grid
+                .brick(corner + IVec3::new(i & 1, (i >> 1) & 1, i >> 2))
+        });
+        move |voxel| {
+            let raw = if let Some(index) = &self.index_from_reference {
+                self.grid
+                    .sample_trilinear(index.transform_point3(voxel.as_dvec3()))
+            } else {
+                let voxel = self.grid.bordered(voxel);
+                let offset = brick_of(voxel) - corner;
+                if offset.cmpge(IVec3::ZERO).all() && offset.cmple(IVec3::ONE).all() {
+                    f64::from(near[(offset.x + 2 * offset.y + 4 * offset.z) as usize].value(voxel))
+                } else {
+                    f64::from(self.grid.value(voxel))
+                }
+            };
+            self.amount * self.map.apply(raw)
+        }
+    }
+
+    /// What the field is where the grid says nothing.
+    fn ambient(&self) -> f64 {
+        self.amount * self.map.apply(f64::from(self.grid.background()))
+    }
+
+    /// This grid's box in reference voxels, min inside, max outside.
+    pub(super) fn bounds(&self) -> Aabb {
+        let bounds = self.grid.bounds();
+        self.in_reference(bounds.min, bounds.max)
+    }
+
+    fn in_reference(&self, min: IVec3, max: IVec3) -> Aabb {
+        let own = Aabb {
+            min: min.as_dvec3(),
+            max: max.as_dvec3(),
+        };
+        match &self.index_from_reference {
+            None => own,
+            Some(index) => {
+                // A resampled voxel reaches one voxel of its own grid further.
+                let reach = Aabb {
+                    min: own.min - 1.0,
+                    max: own.max + 1.0,
+                };
+                let hull = reach.transformed(&index.inverse());
+                Aabb {
+                    min: hull.min.floor(),
+                    max: hull.max.ceil(),
+                }
+            }
+        }
+    }
+
+    /// Visits the boxes of reference voxels (min inside, max outside) in which this field may be above zero.
+    pub(super) fn for_each_occupied(&self, mut visit: impl FnMut(Aabb)) {
+        if self.ambient() > 0.0 {
+            visit(self.bounds());
+            return;
+        }
+        let edge = BRICK as i32;
+        for (brick, values) in self.grid.bricks() {
+            let above_zero = |value: f32| self.map.apply(f64::from(value)) > 0.0;
+            let occupied = match values {
+                BrickRef::Constant(value) => above_zero(value),
+                BrickRef::Dense(values) => values.iter().copied().any(above_zero),
+            };
+            if occupied {
+                visit(self.in_reference(brick * edge, (brick + 1) * edge));
+            }
+        }
+    }
+}
