@@ -149,3 +149,27 @@ fn settings_out_of_range_are_refused_by_name() {
     ));
     assert_eq!(SETTINGS.validated(), Ok(SETTINGS));
 }
+
+#[test]
+fn a_step_too_long_for_dense_soot_is_a_flaw() {
+    let flaws = |radius_nm: f64, step_voxels: f64| {
+        let mut job = common::torch_job([8, 8]);
+        job.flame.soot_radius_nm = radius_nm;
+        let scene = job.scene(None);
+        let plan = Plan::new(
+            &scene,
+            &Settings {
+                step_voxels,
+                ..job.settings
+            },
+        );
+        plan.flaws.iter().map(String::from).collect::<Vec<_>>()
+    };
+    assert!(flaws(21.25, 1.0).is_empty());
+    let dense = flaws(80.0, 1.0);
+    assert!(
+        dense.len() == 1 && dense[0].contains("optical depths thick"),
+        "{dense:?}"
+    );
+    assert!(flaws(80.0, 0.05).is_empty());
+}

@@ -22,7 +22,7 @@ use rayon::ThreadPool;
 pub use picture::Picture;
 
 use crate::project::Job;
-use crate::render::{Cancel, Pass, Plan, Tile, pass, render_pass};
+use crate::render::{Cancel, Flaws, Pass, Plan, Tile, pass, render_pass};
 use crate::scene::Scene;
 
 /// Which submit something belongs to.
@@ -49,6 +49,8 @@ pub enum News {
         size: [u32; 2],
         /// Time the packing and baking took.
         bake: Duration,
+        /// What the settings cannot show faithfully.
+        flaws: Flaws,
     },
     /// A tile of the running pass.
     Tile(Tile),
@@ -230,6 +232,7 @@ impl Shared {
             passes: passes.clone(),
             size: job.settings.size,
             bake: begun.elapsed(),
+            flaws: plan.flaws.clone(),
         };
         self.publish(generation, started);
         for (index, pass) in passes.iter().enumerate() {

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use super::{Generation, News, Update};
-use crate::render::{Film, Pass};
+use crate::render::{Film, Flaws, Pass};
 
 /// The film on show and how far it is.
 #[derive(Debug)]
@@ -40,6 +40,8 @@ pub struct Progress {
     pub elapsed: Duration,
     /// Whether every pass is whole.
     pub finished: bool,
+    /// What the settings cannot show faithfully.
+    pub flaws: Flaws,
     /// What went wrong, if something did.
     pub failure: Option<String>,
 }
@@ -81,7 +83,13 @@ impl Picture {
         }
         let progress = &mut self.progress;
         match update.news {
-            News::Started { passes, size, .. } => {
+            News::Started {
+                passes,
+                size,
+                flaws,
+                ..
+            } => {
+                progress.flaws = flaws;
                 progress.rays_of_pass = passes.first().map_or(0, |pass| rays_of(pass, size));
                 progress.passes = passes;
                 self.coming = Some(Film::new(size));

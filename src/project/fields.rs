@@ -51,6 +51,15 @@ pub(super) fn field_maps(
         temperature: merge(FieldKind::Temperature, preset.maps.temperature.as_ref())?,
         soot,
     };
+    // What was repaired in a grid that no field uses is no flaw of the picture.
+    let unused = |note: &&String| {
+        let mut grids = volume.grids.iter();
+        grids.any(|grid| {
+            note.starts_with(&format!("{}: ", grid.name))
+                && maps.iter().all(|(_, map)| map.grid != grid.name)
+        })
+    };
+    flaws.extend(volume.notes.iter().filter(|note| !unused(note)).cloned());
     if maps.soot.is_none() && maps.smoke.is_none() {
         return Err(ProjectError::NothingToRender {
             available: grid_names(volume),
@@ -110,6 +119,12 @@ fn merged(
             });
         }
     }
+    if [set.scale, set.offset, set.min, set.max]
+        .iter()
+        .any(Option::is_some)
+    {
+        say_clamped(volume, kind, &map, flaws);
+    }
     let greatest = kind.greatest();
     for (part, value) in [("min", map.min), ("max", map.max)] {
         if !(0.0..=greatest).contains(&value) {
@@ -128,6 +143,30 @@ fn merged(
         });
     }
     Ok(Some(map))
+}
+
+/// Adds a flaw where the numbers that a person set reach beyond the mapping's own bounds.
+fn say_clamped(volume: &Volume, kind: FieldKind, map: &FieldMap, flaws: &mut Flaws) {
+    let Some(grid) = volume.grid(&map.grid) else {
+        return;
+    };
+    let free = FieldMap {
+        min: f64::NEG_INFINITY,
+        max: f64::INFINITY,
+        ..map.clone()
+    };
+    let (low, high) = free.mapped_range((f64::from(grid.range().0), f64::from(grid.range().1)));
+    // A hair beyond the bounds is rounding, not a clamp that shows.
+    let slack = 1e-6 * (map.max - map.min);
+    if low < map.min - slack || high > map.max + slack {
+        flaws.add(format!(
+            "{} would reach from {low:.3e} to {high:.3e} {}: clamped to {:.3e} to {:.3e}",
+            kind.name(),
+            kind.unit(),
+            map.min,
+            map.max
+        ));
+    }
 }
 
 /// The grids' names in quotes, for a message.
@@ -234,7 +273,11 @@ mod tests {
             let error = job(&[assignment]).unwrap_err().to_string();
             assert!(error.starts_with(key), "{assignment}: {error}");
         }
-        assert!(job(&["volume.soot.scale=1e60"]).is_ok());
+        assert!(says(
+            &job(&["volume.soot.scale=1e60"]).unwrap(),
+            "soot would reach"
+        ));
+        assert!(!says(&job(&["volume.soot.scale=1e-6"]).unwrap(), "clamped"));
     }
 
     #[test]

@@ -67,7 +67,6 @@ impl Project {
         };
         let preset = volume::preset(producer, volume);
         let mut flaws = Flaws::default();
-        flaws.extend(volume.notes.iter().cloned());
         let fields = &self.volume;
         let maps = field_maps(fields, volume, producer, &preset, &mut flaws)?;
         let up = match fields.up {

@@ -156,6 +156,8 @@ pub struct Frame {
     pub rays: u64,
     /// Samples of the medium taken.
     pub samples: u64,
+    /// What the settings could not show faithfully.
+    pub flaws: Flaws,
 }
 
 /// Renders every sample of a still in the calling thread's rayon pool, without coarse passes.
@@ -192,5 +194,6 @@ pub fn render_still(
             .unwrap_or_else(std::sync::PoisonError::into_inner),
         rays,
         samples,
+        flaws: plan.flaws,
     })
 }

@@ -3,7 +3,7 @@
 //! The laws are f64; the tables are f32 with the units chosen so that nothing under- or overflows (wavelengths
 //! in nm, Planck's constants per nm).
 
-use super::Settings;
+use super::{Flaws, Settings};
 use crate::physics::blackbody;
 use crate::scene::Scene;
 use crate::spectral::Wavelengths;
@@ -28,6 +28,8 @@ pub struct Plan {
     pub nodes: Vec<Node>,
     /// Picture size in pixels.
     pub size: [u32; 2],
+    /// What these settings cannot show faithfully of this scene.
+    pub flaws: Flaws,
     /// Once the medium's column ∫ f_v ds (m) exceeds this, no wavelength lets anything behind be seen.
     pub opaque_column_m: f32,
 }
@@ -35,18 +37,35 @@ pub struct Plan {
 /// Most wavelengths of any set.
 pub const MAX_NODES: usize = 64;
 
-/// Optical depth at which a ray stops: what is behind keeps e⁻²⁴ = 4e-11 of its radiance, below a hundredth of an f32's last digit
-/// for anything up to ten thousand times as bright as what is in front.
+/// Optical depth of a step from which on the picture's error is said: the midpoint rule is off by about τ²/24 of a
+/// step's light, here 1 %.
+const THICK_STEP: f64 = 0.5;
+
+/// Optical depth at which a ray stops: what is behind keeps e⁻²⁴ = 4e-11 of its radiance, less than an f32's last digit
+/// unless it is a thousand times as bright as what is in front.
 const OPAQUE_DEPTH: f64 = 24.0;
 
 impl Plan {
     /// Bakes the tables for the settings' own wavelengths.
     pub fn new(scene: &Scene, settings: &Settings) -> Self {
-        Self::with_wavelengths(
-            scene,
-            settings.size,
-            settings.wavelengths.wavelengths(scene.flame.soot()),
-        )
+        let wavelengths = settings.wavelengths.wavelengths(scene.flame.soot());
+        let mut plan = Self::with_wavelengths(scene, settings.size, wavelengths);
+        let medium = scene.flame.medium();
+        let densest = plan
+            .nodes
+            .iter()
+            .map(|node| f64::from(node.absorption))
+            .fold(0.0, f64::max);
+        let step_m = settings.step_voxels * medium.voxel_size_m();
+        let thickest = densest * f64::from(medium.peak_volume_fraction()) * step_m;
+        if thickest > THICK_STEP {
+            plan.flaws.add(format!(
+                "the soot is so dense that a step of {} voxels is up to {thickest:.1} optical depths thick: take \
+                 smaller steps, or less soot",
+                settings.step_voxels
+            ));
+        }
+        plan
     }
 
     /// Bakes the tables for given wavelengths, at most [`MAX_NODES`] of them: those of a measurement, say.
@@ -70,6 +89,7 @@ impl Plan {
             wavelengths,
             nodes,
             size,
+            flaws: Flaws::default(),
             opaque_column_m,
         }
     }

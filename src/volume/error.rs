@@ -47,7 +47,7 @@ pub enum VolumeError {
         message: String,
     },
     /// The volume would need more than the limits allow.
-    #[error("{path}: {what} needs {needed} {unit}, the limit is {limit}: crop or resample the volume, or raise the limit", path = path.display())]
+    #[error("{path}: {what} needs {needed} {unit}, the limit is {limit}: crop or resample the volume", path = path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -82,7 +82,7 @@ pub enum VolumeError {
         second_dims: IVec3,
     },
     /// Two files that were given together carry the same field.
-    #[error("{first} and {second} both hold {field}: give one of them, or put \"density\" and \"temperature\" into the file names",
+    #[error("{first} and {second} both hold {field}: open one of them (sequences are not read as one), or, for two fields of one fire, put \"density\" and \"temperature\" into the file names",
         first = first.display(), second = second.display())]
     SameField {
         /// One file.

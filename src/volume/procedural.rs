@@ -99,7 +99,7 @@ fn temperature(point: Vec3, mixture: f32) -> f32 {
     // Linear from air to the flame sheet; richer gas is cooler, and soot's own radiation cools it further.
     let lean = mixture / STOICHIOMETRIC;
     let rich = 1.0 - 0.45 * (mixture - STOICHIOMETRIC) / (1.0 - STOICHIOMETRIC);
-    let radiated = 1.0 - 0.20 * smoothstep(0.08, HEIGHT_M, point.z);
+    let radiated = 1.0 - 0.30 * smoothstep(0.06, HEIGHT_M, point.z);
     AIR_K + (FLAME_K - AIR_K) * lean.min(rich).clamp(0.0, 1.0) * radiated
 }
 
@@ -107,7 +107,8 @@ fn temperature(point: Vec3, mixture: f32) -> f32 {
 fn mixture_fraction(point: Vec3) -> Option<f32> {
     let height = point.z / HEIGHT_M;
     // The fuel's column is drawn in by the rising gas, swells as it heats, and narrows as it burns.
-    let swell = 0.55 + 0.75 * smoothstep(-0.08, 0.30, height) - 0.95 * smoothstep(0.22, 1.15, height);
+    let swell =
+        0.55 + 0.75 * smoothstep(-0.08, 0.30, height) - 0.95 * smoothstep(0.22, 1.15, height);
     let radius = 2.1 * OUTLET_M * swell;
     let [sway, eddy, curl] = [
         SWAY_M * smoothstep(0.0, 0.8, height),

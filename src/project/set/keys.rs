@@ -62,7 +62,7 @@ pub const KEYS: &[Key] = &[
     key(
         "volume.smoke.grid",
         GRID,
-        "cold smoke, mapped to a volume fraction",
+        "smoke, soot beside the flame's own that glows where it is hot; mapped to a volume fraction",
     ),
     key(
         "volume.smoke.scale",
