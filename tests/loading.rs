@@ -279,6 +279,31 @@ fn a_coloured_binary_file_gives_red_as_density_and_the_largest_channel_as_temper
 }
 
 #[test]
+fn a_count_that_looks_like_another_format_is_a_count() {
+    let folder = tempfile::tempdir().unwrap();
+    // As little-endian bytes: the byte order marks of UTF-16, and the first two bytes of gzip.
+    for count in [0xfffe_i32, 0xfeff, 0x8b1f] {
+        let mut bytes = count.to_le_bytes().to_vec();
+        for i in 0..count {
+            for coordinate in [i % 64, i / 64 % 64, i / 4096] {
+                bytes.extend(coordinate.to_le_bytes());
+            }
+            for channel in [1e-6_f64; 4] {
+                bytes.extend(channel.to_le_bytes());
+            }
+        }
+        let path = write(folder.path(), "soot.bin", &bytes);
+        let volume = open_one(&path).unwrap_or_else(|error| panic!("{count}: {error}"));
+        assert_eq!(grid(&volume, "soot").active_voxels(), count as u64);
+    }
+    for contents in [&b"\x1f\x8b\x08\0\0\0\0\0"[..], b"\xff\xfe4\0 \x004\0"] {
+        let path = write(folder.path(), "foreign", contents);
+        let error = open_one(&path).unwrap_err();
+        assert!(matches!(error, VolumeError::Unsupported { .. }), "{error}");
+    }
+}
+
+#[test]
 fn announced_sizes_are_compared_with_the_file_before_they_are_believed() {
     let folder = tempfile::tempdir().unwrap();
     let ascii = write(folder.path(), "big.txt", "1000 1000 1000\n1 2 3");

@@ -72,7 +72,7 @@ fn read_file(path: &Path, limits: &Limits) -> Result<FileVolume, VolumeError> {
         .take(HEAD_BYTES)
         .read_to_end(&mut bytes)
         .map_err(io)?;
-    match sniff(&bytes) {
+    match sniff(&bytes, about.len()) {
         Sniffed::Empty => Err(VolumeError::Empty {
             path: path.to_owned(),
         }),
