@@ -31,7 +31,7 @@ impl Render {
                 )
             })?;
 
-        let (volume, load) = timed(|| load::volume(&self.project));
+        let (volume, load) = timed(|| pool.install(|| load::volume(&self.project)));
         let job = self.project.job(&volume?).map_err(CliError::project)?;
         let (scene, bake) = timed(|| pool.install(|| job.scene(None)));
         let (frame, render) = timed(|| pool.install(|| still(&scene, &job)));

@@ -85,7 +85,15 @@ pub fn encode(film: &Film, provenance: &Provenance) -> Result<Encoded, ExportErr
     image.attributes.chromaticities = Some(rec_709());
 
     let mut bytes = Cursor::new(Vec::new());
-    image.write().to_buffered(&mut bytes)?;
+    let write = image.write();
+    // The encoder starts a pool of its own with a thread for each core. Where the caller's pool has fewer, that
+    // would be more than were given: the caller's thread compresses alone, to the same bytes.
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    if rayon::current_num_threads() < cores {
+        write.non_parallel().to_buffered(&mut bytes)?;
+    } else {
+        write.to_buffered(&mut bytes)?;
+    }
     Ok(Encoded {
         bytes: bytes.into_inner(),
         spoilt_pixels,
