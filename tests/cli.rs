@@ -207,7 +207,8 @@ fn info_lists_what_is_there_and_what_would_be_made_of_it() {
         "f_v",
         "physical",
         "up ",
-        " m\n",
+        "\ndata      x 0 to 0.08, y 0 to 0.08, z 0 to 0.12 m\n",
+        "\nfire      x ",
     ] {
         assert!(said.contains(expected), "no \"{expected}\" in:\n{said}");
     }

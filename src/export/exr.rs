@@ -21,14 +21,12 @@ use exr::prelude::{Compression, Vec2, WritableImage};
 use glam::DVec3;
 
 use super::{Encoded, ExportError, Provenance, is_finite};
+use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::xyz::{PRIMARIES_XY, WHITE_XY, rgb_from_xyz};
 use crate::render::{Film, Pixel};
 
 /// Name of the attribute that holds the scene file.
 pub const SCENE_ATTRIBUTE: &str = "sootlight.scene";
-
-/// Luminous efficacy, lm/W: cd m⁻² for each W m⁻² sr⁻¹ of Y.
-pub const LUMENS_PER_WATT: f64 = 683.0;
 
 /// The channels in the order of [`values`].
 const CHANNELS: [&str; 10] = [
@@ -104,7 +102,7 @@ pub fn encode(film: &Film, provenance: &Provenance) -> Result<Encoded, ExportErr
 fn values(pixel: &Pixel, rgb_from_xyz: &glam::DMat3) -> [f32; CHANNELS.len()] {
     let xyz = DVec3::from(pixel.xyz.map(f64::from));
     let opacity = DVec3::from(pixel.opacity.map(f64::from));
-    let [r, g, b] = (LUMENS_PER_WATT * (*rgb_from_xyz * xyz))
+    let [r, g, b] = (MAX_LUMINOUS_EFFICACY * (*rgb_from_xyz * xyz))
         .as_vec3()
         .to_array();
     let [tr, tg, tb] = (DVec3::ONE - *rgb_from_xyz * opacity).as_vec3().to_array();
