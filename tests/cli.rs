@@ -7,6 +7,7 @@ use sootlight::project::Project;
 use sootlight::project::file::SceneFileError;
 
 mod errors;
+mod outputs;
 mod place;
 
 use place::{Place, read_png};
