@@ -5,9 +5,12 @@ mod real;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use glam::{DVec3, IVec3};
+use sootlight::project::Project;
+use sootlight::render::{Cancel, render_still};
 use sootlight::volume::{
     Border, Grid, Limits, Producer, Volume, VolumeError, open, preset, recognise, summarise,
 };
@@ -40,6 +43,25 @@ fn voxels(min: IVec3, max: IVec3) -> impl Iterator<Item = IVec3> {
     })
 }
 
+/// Packs and renders what was read, as it would be shown; false if it cannot be.
+fn survives_a_render(volume: Volume, name: &str) -> bool {
+    let mut project = Project::default();
+    project.render.size = [16, 16];
+    let Ok(job) = project.job(&Arc::new(volume)) else {
+        return false;
+    };
+    let scene = job.scene(None);
+    let frame = render_still(&scene, &job.settings, &Cancel::never(), &|_| {}).unwrap();
+    for pixel in frame.film.pixels() {
+        let numbers = pixel.xyz.iter().chain(&pixel.opacity);
+        assert!(
+            numbers.into_iter().all(|x| x.is_finite()),
+            "{name}: {pixel:?}"
+        );
+    }
+    true
+}
+
 #[test]
 fn every_hostile_file_behaves_as_the_manifest_says() {
     let folder = tempfile::tempdir().unwrap();
@@ -49,7 +71,7 @@ fn every_hostile_file_behaves_as_the_manifest_says() {
     write(folder.path(), "ascii_long_line.txt", long);
 
     let manifest = fs::read_to_string(hostile("MANIFEST.tsv")).unwrap();
-    let mut rows = 0;
+    let (mut rows, mut rendered) = (0, 0);
     for row in manifest.lines().skip(1) {
         let [name, promise, choice, line, what] = row.split('\t').collect::<Vec<_>>()[..] else {
             panic!("the manifest has five columns: {row}");
@@ -79,6 +101,7 @@ fn every_hostile_file_behaves_as_the_manifest_says() {
                         "{name}"
                     );
                 }
+                rendered += u32::from(survives_a_render(volume, name));
             }
             Err(error) => {
                 let message = error.to_string();
@@ -95,6 +118,7 @@ fn every_hostile_file_behaves_as_the_manifest_says() {
         }
     }
     assert!(rows > 90, "the manifest was cut: {rows} rows");
+    assert!(rendered > 20, "only {rendered} were rendered");
 }
 
 #[test]
@@ -276,6 +300,31 @@ fn a_coloured_binary_file_gives_red_as_density_and_the_largest_channel_as_temper
     assert_eq!(grid(&soot, "soot").value(voxel), 1e-6);
     assert_eq!(grid(&soot, "soot").background(), 0.0);
     assert!(soot.notes.iter().any(|note| note.contains("red was taken")));
+}
+
+#[test]
+fn a_count_that_looks_like_another_format_is_a_count() {
+    let folder = tempfile::tempdir().unwrap();
+    // As little-endian bytes: the byte order marks of UTF-16, and the first two bytes of gzip.
+    for count in [0xfffe_i32, 0xfeff, 0x8b1f] {
+        let mut bytes = count.to_le_bytes().to_vec();
+        for i in 0..count {
+            for coordinate in [i % 64, i / 64 % 64, i / 4096] {
+                bytes.extend(coordinate.to_le_bytes());
+            }
+            for channel in [1e-6_f64; 4] {
+                bytes.extend(channel.to_le_bytes());
+            }
+        }
+        let path = write(folder.path(), "soot.bin", &bytes);
+        let volume = open_one(&path).unwrap_or_else(|error| panic!("{count}: {error}"));
+        assert_eq!(grid(&volume, "soot").active_voxels(), count as u64);
+    }
+    for contents in [&b"\x1f\x8b\x08\0\0\0\0\0"[..], b"\xff\xfe4\0 \x004\0"] {
+        let path = write(folder.path(), "foreign", contents);
+        let error = open_one(&path).unwrap_err();
+        assert!(matches!(error, VolumeError::Unsupported { .. }), "{error}");
+    }
 }
 
 #[test]

@@ -19,9 +19,18 @@ fn screenshots() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("screenshots")
 }
 
+/// Where a picture goes, with the old one out of the way: what is there afterwards was made now.
+fn cleared(name: &str) -> PathBuf {
+    let output = screenshots().join(name);
+    match std::fs::remove_file(&output) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => panic!("{name}: {error}"),
+        _ => output,
+    }
+}
+
 /// Renders a still in the given folder.
 fn still(folder: &Path, name: &str, arguments: &[&str]) {
-    let output = screenshots().join(name);
+    let output = cleared(name);
     let status = Command::new(PROGRAM)
         .current_dir(folder)
         .args(["render", "--quality", "final", "-o"])
@@ -29,13 +38,15 @@ fn still(folder: &Path, name: &str, arguments: &[&str]) {
         .args(arguments)
         .status()
         .unwrap();
-    assert!(status.success(), "{name}");
+    assert!(status.success() && output.is_file(), "{name}");
 }
 
 /// Opens the window on a virtual display and takes its picture after it has come to rest.
 fn window(folder: &Path, name: &str, files: &[&str]) {
-    let script =
-        r#""$0" "${@:2}" & program=$!; sleep 6; import -window root "$1"; kill $program; wait"#;
+    // The script succeeds if the picture was taken and the program was there to be seen.
+    let script = r#""$0" "${@:2}" & program=$!; sleep 6; import -window root "$1"; taken=$?
+        kill $program || exit 1; wait; exit $taken"#;
+    let output = cleared(name);
     let status = Command::new("xvfb-run")
         .current_dir(folder)
         .args([
@@ -47,15 +58,11 @@ fn window(folder: &Path, name: &str, files: &[&str]) {
             script,
             PROGRAM,
         ])
-        .arg(screenshots().join(name))
+        .arg(&output)
         .args(files)
         .status()
         .expect("xvfb-run and import (ImageMagick) must be installed");
-    // The script ends with the program's own status: killed, after the picture was taken.
-    assert!(
-        screenshots().join(name).is_file() && status.code().is_some(),
-        "{name}"
-    );
+    assert!(status.success() && output.is_file(), "{name}");
 }
 
 #[test]

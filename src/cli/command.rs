@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Args, ProjectArgs, RenderArgs, Sub};
 use super::error::CliError;
+use crate::export::is_same_file;
 use crate::export::png::Bits;
 use crate::project::Project;
 use crate::project::set::did_you_mean;
@@ -61,6 +62,9 @@ impl Render {
             project.render.quality = args.quality.unwrap_or(project.render.quality);
             project.render.size = args.size.unwrap_or(project.render.size);
         })?;
+        if let Some(stats) = &args.stats {
+            refuse_lost_files(stats, &args, &project)?;
+        }
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         let threads = args.threads.map_or_else(cores, usize::from);
         Ok(Self {
@@ -108,6 +112,22 @@ fn format(output: &Path, bits: Option<&str>) -> Result<Format, CliError> {
             "-o {}: the name must end with .png (as it looks) or .exr (the light itself)",
             output.display()
         ))),
+    }
+}
+
+/// Statistics may not take the place of the picture, nor of what it is made from.
+fn refuse_lost_files(stats: &Path, args: &RenderArgs, project: &Project) -> Result<(), CliError> {
+    let output = std::iter::once((&args.output, "the picture"));
+    let scene = args.project.scene.iter().map(|path| (path, "the scene"));
+    let volume = project.volume.path.iter().map(|path| (path, "the volume"));
+    let mut others = output.chain(scene).chain(volume);
+    match others.find(|(path, _)| is_same_file(stats, path)) {
+        Some((path, what)) => Err(CliError::Usage(format!(
+            "--stats {}: {what} is the same file, {}; give the statistics a name of their own",
+            stats.display(),
+            path.display()
+        ))),
+        None => Ok(()),
     }
 }
 

@@ -4,9 +4,12 @@ use std::fmt::Write as _;
 
 use super::error::CliError;
 use super::{load, output};
+use crate::math::Aabb;
 use crate::project::{Job, Project};
 use crate::scene::flame::world_bounds;
-use crate::volume::{FieldKind, GridSummary, Producer, Summary, UpAxis, Volume, summarise};
+use crate::volume::{
+    FieldKind, GridSummary, Producer, Summary, UpAxis, Volume, figures, summarise,
+};
 
 /// Tells what was found, then fails if nothing of it can be rendered.
 pub(super) fn run(project: &Project) -> Result<(), CliError> {
@@ -63,8 +66,8 @@ fn grids(summary: &Summary) -> String {
             format!("{} × {} × {}", dims.x, dims.y, dims.z),
             format!(
                 "{} to {}",
-                short(f64::from(range.0)),
-                short(f64::from(range.1))
+                figures(f64::from(range.0)),
+                figures(f64::from(range.1))
             ),
             voxel_size(grid),
             grid.active_voxels.to_string(),
@@ -98,19 +101,10 @@ fn made_of_it(job: &Job, volume: &Volume) -> String {
         UpAxis::Z => "z",
     };
     let _ = writeln!(text, "up        {up}");
-    let bounds = world_bounds(volume, &job.flame.maps, placement);
-    if bounds.is_empty() {
-        text.push_str("box       empty\n");
-    } else {
-        let side = |from: f64, to: f64| format!("{} to {}", short(from), short(to));
-        let _ = writeln!(
-            text,
-            "box       x {}, y {}, z {} m",
-            side(bounds.min.x, bounds.max.x),
-            side(bounds.min.y, bounds.max.y),
-            side(bounds.min.z, bounds.max.z)
-        );
-    }
+    let _ = writeln!(text, "data      {}", extent(&data_bounds(job, volume)));
+    // Where most of the soot is: stray voxels of the data do not count.
+    let fire = world_bounds(volume, &job.flame.maps, placement);
+    let _ = writeln!(text, "fire      {}", extent(&fire));
     text.push_str("\nwhat would be made of it\n");
     let mut table = Table::new(&["field", "from grid", "raw", "physical", "unit"]);
     for (kind, map) in job.flame.maps.iter() {
@@ -119,7 +113,7 @@ fn made_of_it(job: &Job, volume: &Volume) -> String {
         };
         let raw = (f64::from(grid.range().0), f64::from(grid.range().1));
         let mapped = map.mapped_range(raw);
-        let range = |(low, high): (f64, f64)| format!("{} to {}", short(low), short(high));
+        let range = |(low, high): (f64, f64)| format!("{} to {}", figures(low), figures(high));
         let unit = if kind == FieldKind::Flame {
             "0 to 1"
         } else {
@@ -138,6 +132,37 @@ fn made_of_it(job: &Job, volume: &Volume) -> String {
     text
 }
 
+/// The box of every voxel of the grids that are used, in the world, metres.
+fn data_bounds(job: &Job, volume: &Volume) -> Aabb {
+    let world_from_file = job.flame.placement.world_from_file();
+    let grids = job.flame.maps.iter();
+    let boxes = grids
+        .filter_map(|(_, map)| volume.grid(&map.grid))
+        .filter(|grid| !grid.bounds().is_empty())
+        .map(|grid| {
+            // A voxel reaches half a step around its sample.
+            let voxels = Aabb {
+                min: grid.bounds().min.as_dvec3() - 0.5,
+                max: grid.bounds().max.as_dvec3() - 0.5,
+            };
+            voxels.transformed(&(world_from_file * grid.world_from_index()))
+        });
+    boxes.fold(Aabb::EMPTY, |sum, next| sum.union(&next))
+}
+
+fn extent(bounds: &Aabb) -> String {
+    if bounds.is_empty() {
+        return "empty".to_owned();
+    }
+    let side = |from: f64, to: f64| format!("{} to {}", figures(from), figures(to));
+    format!(
+        "x {}, y {}, z {} m",
+        side(bounds.min.x, bounds.max.x),
+        side(bounds.min.y, bounds.max.y),
+        side(bounds.min.z, bounds.max.z)
+    )
+}
+
 fn flaws(flaws: &[&str]) -> String {
     if flaws.is_empty() {
         return "\nnothing was assumed\n".to_owned();
@@ -153,27 +178,14 @@ fn flaws(flaws: &[&str]) -> String {
 fn voxel_size(grid: &GridSummary) -> String {
     let size = grid.voxel_size;
     if (size - size.x).abs().max_element() <= 1e-6 * size.x {
-        short(size.x)
+        figures(size.x)
     } else {
-        format!("{} × {} × {}", short(size.x), short(size.y), short(size.z))
-    }
-}
-
-/// Four digits, as a person would write them.
-fn short(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    if !(1e-3..1e5).contains(&size) {
-        return format!("{value:.3e}");
-    }
-    let decimals = (3 - size.log10().floor() as i32).max(0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
+        format!(
+            "{} × {} × {}",
+            figures(size.x),
+            figures(size.y),
+            figures(size.z)
+        )
     }
 }
 
@@ -227,22 +239,6 @@ impl<const N: usize> std::fmt::Display for Table<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_written_as_a_person_would() {
-        let cases = [
-            (0.0, "0"),
-            (300.0, "300"),
-            (1964.23, "1964"),
-            (0.01875, "0.01875"),
-            (-1.5, "-1.5"),
-            (2.4e-6, "2.400e-6"),
-            (123456.0, "1.235e5"),
-        ];
-        for (value, text) in cases {
-            assert_eq!(short(value), text);
-        }
-    }
 
     #[test]
     fn columns_are_as_wide_as_their_widest_cell() {

@@ -31,7 +31,7 @@ impl Render {
                 )
             })?;
 
-        let (volume, load) = timed(|| load::volume(&self.project));
+        let (volume, load) = timed(|| pool.install(|| load::volume(&self.project)));
         let job = self.project.job(&volume?).map_err(CliError::project)?;
         let (scene, bake) = timed(|| pool.install(|| job.scene(None)));
         let (frame, render) = timed(|| pool.install(|| still(&scene, &job)));
@@ -79,8 +79,9 @@ impl Render {
     fn write(&self, job: &Job, frame: &Frame) -> Result<(Metering, Flaws), CliError> {
         let metering = Metering::of(&frame.film);
         let mut flaws = job.flaws.clone();
-        if metering.bright_y <= 0.0 {
-            flaws.add("the picture is black: nothing in it glows, or the camera looks elsewhere");
+        flaws.extend(frame.flaws.iter().map(String::from));
+        if metering.is_black() {
+            flaws.add("the picture is black: nothing in it is hot enough to be seen, or the camera looks elsewhere");
         }
         let encode = |flaws: &Flaws| -> Result<Encoded, export::ExportError> {
             let provenance = Provenance::new(&self.project, flaws);

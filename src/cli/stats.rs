@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::export::exr::LUMENS_PER_WATT;
+use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::project::Job;
 use crate::render::develop::{Metering, ViewParams};
 use crate::render::{Flaws, Frame};
@@ -86,15 +86,15 @@ impl Stats<'_> {
             "relative_ev": self.view.exposure_ev,
             "multiplier": finite(multiplier),
             "white_xyz": self.metering.white_xyz.map(finite),
-            "display_white_cd_m2": finite(LUMENS_PER_WATT / multiplier),
-            "bright_cd_m2": finite(LUMENS_PER_WATT * self.metering.bright_y),
+            "display_white_cd_m2": finite(MAX_LUMINOUS_EFFICACY / multiplier),
+            "bright_cd_m2": finite(MAX_LUMINOUS_EFFICACY * self.metering.bright_y),
         })
     }
 
     fn peak_luminance(&self) -> Value {
         let luminance = self.frame.film.pixels().iter().map(|pixel| pixel.xyz[1]);
         let peak = luminance.filter(|y| y.is_finite()).fold(0.0, f32::max);
-        finite(LUMENS_PER_WATT * f64::from(peak))
+        finite(MAX_LUMINOUS_EFFICACY * f64::from(peak))
     }
 }
 

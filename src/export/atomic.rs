@@ -4,7 +4,7 @@ use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 use super::ExportError;
-use crate::project::file::{temporary_beside, write_whole};
+use crate::project::file::{Target, write_whole};
 
 /// Writes a file wholly or not at all.
 ///
@@ -19,13 +19,17 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
 /// # Errors
 /// As [`write()`] would.
 pub fn check_writable(path: &Path) -> Result<(), ExportError> {
-    match std::fs::metadata(path) {
-        Ok(about) if about.is_dir() => Err(refused(path, Error::from(ErrorKind::IsADirectory))),
-        // A device or a pipe is not replaced: it has no temporary file beside it.
-        Ok(about) if !about.is_file() => Ok(()),
-        _ => temporary_beside(path)
-            .map(|_| ())
-            .map_err(|source| refused(path, source)),
+    Target::of(path)
+        .and_then(|target| target.check())
+        .map_err(|source| refused(path, source))
+}
+
+/// Whether two paths are one file, by whatever spelling or link, there or not yet. Paths that cannot be followed
+/// are compared as they stand.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (Target::of(a), Target::of(b)) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
     }
 }
 

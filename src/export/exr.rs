@@ -21,14 +21,12 @@ use exr::prelude::{Compression, Vec2, WritableImage};
 use glam::DVec3;
 
 use super::{Encoded, ExportError, Provenance, is_finite};
+use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::xyz::{PRIMARIES_XY, WHITE_XY, rgb_from_xyz};
 use crate::render::{Film, Pixel};
 
 /// Name of the attribute that holds the scene file.
 pub const SCENE_ATTRIBUTE: &str = "sootlight.scene";
-
-/// Luminous efficacy, lm/W: cd m⁻² for each W m⁻² sr⁻¹ of Y.
-pub const LUMENS_PER_WATT: f64 = 683.0;
 
 /// The channels in the order of [`values`].
 const CHANNELS: [&str; 10] = [
@@ -85,7 +83,15 @@ pub fn encode(film: &Film, provenance: &Provenance) -> Result<Encoded, ExportErr
     image.attributes.chromaticities = Some(rec_709());
 
     let mut bytes = Cursor::new(Vec::new());
-    image.write().to_buffered(&mut bytes)?;
+    let write = image.write();
+    // The encoder starts a pool of its own with a thread for each core. Where the caller's pool has fewer, that
+    // would be more than were given: the caller's thread compresses alone, to the same bytes.
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    if rayon::current_num_threads() < cores {
+        write.non_parallel().to_buffered(&mut bytes)?;
+    } else {
+        write.to_buffered(&mut bytes)?;
+    }
     Ok(Encoded {
         bytes: bytes.into_inner(),
         spoilt_pixels,
@@ -96,7 +102,7 @@ pub fn encode(film: &Film, provenance: &Provenance) -> Result<Encoded, ExportErr
 fn values(pixel: &Pixel, rgb_from_xyz: &glam::DMat3) -> [f32; CHANNELS.len()] {
     let xyz = DVec3::from(pixel.xyz.map(f64::from));
     let opacity = DVec3::from(pixel.opacity.map(f64::from));
-    let [r, g, b] = (LUMENS_PER_WATT * (*rgb_from_xyz * xyz))
+    let [r, g, b] = (MAX_LUMINOUS_EFFICACY * (*rgb_from_xyz * xyz))
         .as_vec3()
         .to_array();
     let [tr, tg, tb] = (DVec3::ONE - *rgb_from_xyz * opacity).as_vec3().to_array();

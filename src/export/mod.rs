@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::render::Pixel;
 
-pub use atomic::{check_writable, write};
+pub use atomic::{check_writable, is_same_file, write};
 pub use provenance::Provenance;
 
 /// A picture as the bytes of a file.

@@ -9,6 +9,7 @@ use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, chunk};
 
 use super::{Encoded, ExportError, Provenance, is_finite};
 use crate::colour::display::BakedView;
+use crate::colour::xyz::{PRIMARIES_XY, WHITE_XY};
 use crate::render::Film;
 use crate::render::develop::develop;
 
@@ -55,13 +56,14 @@ pub fn encode(
         Bits::Sixteen => BitDepth::Sixteen,
     });
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    let [red, green, blue] = PRIMARIES_XY.map(scaled);
     // Written beside sRGB only if they are exactly what sRGB stands for; these are.
     encoder.set_source_gamma(png::ScaledFloat::from_scaled(45455));
     encoder.set_source_chromaticities(png::SourceChromaticities {
-        white: scaled(0.3127, 0.3290),
-        red: scaled(0.64, 0.33),
-        green: scaled(0.30, 0.60),
-        blue: scaled(0.15, 0.06),
+        white: scaled(WHITE_XY),
+        red,
+        green,
+        blue,
     });
     let mut writer = encoder.write_header()?;
     writer.write_chunk(chunk::cICP, &CICP)?;
@@ -80,8 +82,11 @@ pub fn encode(
     })
 }
 
-fn scaled(x: f32, y: f32) -> (png::ScaledFloat, png::ScaledFloat) {
-    (png::ScaledFloat::new(x), png::ScaledFloat::new(y))
+fn scaled([x, y]: [f64; 2]) -> (png::ScaledFloat, png::ScaledFloat) {
+    (
+        png::ScaledFloat::new(x as f32),
+        png::ScaledFloat::new(y as f32),
+    )
 }
 
 /// Display values, 0 to 1, as levels; 16 bits have the high byte first.

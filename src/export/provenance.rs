@@ -1,7 +1,7 @@
 //! Where a picture comes from, as text that travels in its file: enough to make it again.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::project::Project;
 use crate::render::Flaws;
@@ -13,7 +13,8 @@ pub struct Provenance {
     pub software: String,
     /// For people: what was rendered, and what could not be faithful.
     pub comment: String,
-    /// The complete scene file.
+    /// The complete scene file. A volume below the working directory is named relative to it, so that a picture
+    /// tells no more of the machine than it must; others stand as they were given.
     pub scene: String,
 }
 
@@ -36,9 +37,36 @@ impl Provenance {
         Self {
             software,
             comment,
-            scene: project.to_toml(),
+            scene: scene(project),
         }
     }
+}
+
+fn scene(project: &Project) -> String {
+    let mut portable = project.clone();
+    // Without a working directory nothing is below it.
+    if let Ok(here) = std::env::current_dir() {
+        for path in &mut portable.volume.path {
+            if let Some(relative) = below(&here, path) {
+                *path = relative;
+            }
+        }
+    }
+    portable.to_toml()
+}
+
+/// An absolute path as one relative to a folder that it is below, whichever links either was reached by.
+fn below(folder: &Path, path: &Path) -> Option<PathBuf> {
+    if !path.is_absolute() {
+        return None;
+    }
+    if let Ok(relative) = path.strip_prefix(folder) {
+        return Some(relative.to_owned());
+    }
+    // The file itself keeps the name it was given, if it is a link.
+    let parent = path.parent()?.canonicalize().ok()?;
+    let folder = folder.canonicalize().ok()?;
+    Some(parent.strip_prefix(folder).ok()?.join(path.file_name()?))
 }
 
 /// Name and size of a file: the folders above it are nobody's business.
@@ -76,5 +104,23 @@ mod tests {
             Project::from_toml(&provenance.scene, Path::new("")).unwrap(),
             project
         );
+    }
+
+    #[test]
+    fn what_is_below_the_working_directory_is_named_from_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let here = folder.path();
+        let inside = |path: &str| below(here, &here.join(path));
+        assert_eq!(inside("a.vdb"), Some("a.vdb".into()));
+        assert_eq!(inside("deep/a.vdb"), Some("deep/a.vdb".into()));
+        assert_eq!(below(here, Path::new("../a.vdb")), None);
+        assert_eq!(below(&here.join("other"), &here.join("a.vdb")), None);
+        #[cfg(unix)]
+        {
+            std::fs::create_dir(here.join("real")).unwrap();
+            std::os::unix::fs::symlink("real", here.join("link")).unwrap();
+            let by_link = here.join("link/a.vdb");
+            assert_eq!(below(&here.join("real"), &by_link), Some("a.vdb".into()));
+        }
     }
 }

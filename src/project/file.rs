@@ -16,7 +16,7 @@ use super::set::{self, SetError};
 pub mod one_or_many;
 mod whole;
 
-pub use whole::{temporary_beside, write_whole};
+pub use whole::{Target, write_whole};
 
 /// Largest scene file that is read, bytes: a hand-written one has a few thousand.
 const MAX_BYTES: u64 = 1 << 20;

@@ -9,7 +9,7 @@ use glam::IVec3;
 use super::file_volume::FileVolume;
 use super::sniff::{Sniffed, sniff};
 use super::{Format, Grid, Limits, Metadata, Volume, VolumeError};
-use super::{openvdb, report_ascii, report_binary};
+use super::{openvdb, procedural, report_ascii, report_binary};
 
 /// Enough of a file to tell what it is.
 const HEAD_BYTES: u64 = 256;
@@ -34,6 +34,18 @@ pub fn open(paths: &[PathBuf], limits: &Limits) -> Result<Volume, VolumeError> {
         parts.push(part);
     }
     Ok(merge(parts))
+}
+
+/// Opens files as [`open`] does, or makes the built-in flame if there are none.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_or_built_in(paths: &[PathBuf], limits: &Limits) -> Result<Volume, VolumeError> {
+    if paths.is_empty() {
+        Ok(procedural::torch())
+    } else {
+        open(paths, limits)
+    }
 }
 
 impl Volume {
@@ -72,7 +84,7 @@ fn read_file(path: &Path, limits: &Limits) -> Result<FileVolume, VolumeError> {
         .take(HEAD_BYTES)
         .read_to_end(&mut bytes)
         .map_err(io)?;
-    match sniff(&bytes) {
+    match sniff(&bytes, about.len()) {
         Sniffed::Empty => Err(VolumeError::Empty {
             path: path.to_owned(),
         }),

@@ -34,7 +34,8 @@ pub use field::{
 pub use grid::{Border, BrickRef, Grid};
 pub use lattice::{BRICK_EDGE, BRICK_LEN, IndexBox, brick_of};
 pub use limits::Limits;
-pub use load::open;
+pub use load::{open, open_or_built_in};
+pub use naming::figures;
 pub use preset::{mapping, preset};
 pub use recognise::recognise;
 pub use summary::{GridSummary, MappedField, Summary, summarise};

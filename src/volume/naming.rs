@@ -68,13 +68,22 @@ impl NamedField {
     }
 }
 
-/// A value for people: four digits, with an exponent where it is very small or very large.
-pub(super) fn figures(value: f64) -> String {
-    if value != 0.0 && !(1e-2..1e5).contains(&value.abs()) {
+/// A value for people: four digits without idle zeros, with an exponent where it is very small or very large.
+pub fn figures(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let size = value.abs();
+    if !(1e-3..1e5).contains(&size) {
         return format!("{value:.3e}");
     }
-    let whole_digits = value.abs().max(1.0).log10().floor() as usize + 1;
-    format!("{value:.*}", 4usize.saturating_sub(whole_digits))
+    let decimals = (3 - size.log10().floor() as i32).max(0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 #[cfg(test)]
@@ -99,11 +108,20 @@ mod tests {
 
     #[test]
     fn figures_keep_four_digits_at_any_size() {
-        let all = [2.4358744e-6, 0.18237, 2.2776, 1963.677, 1e30, 0.0].map(figures);
-        assert_eq!(
-            all,
-            ["2.436e-6", "0.182", "2.278", "1964", "1.000e30", "0.000"]
-        );
+        let cases = [
+            (0.0, "0"),
+            (300.0, "300"),
+            (1963.677, "1964"),
+            (0.18237, "0.1824"),
+            (0.01875, "0.01875"),
+            (-1.5, "-1.5"),
+            (2.4358744e-6, "2.436e-6"),
+            (123456.0, "1.235e5"),
+            (1e30, "1.000e30"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(figures(value), text);
+        }
     }
 
     #[test]

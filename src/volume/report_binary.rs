@@ -26,6 +26,13 @@ const WRONG_RECORDS: [(i64, &str); 3] = [
     (24, "three 4-byte colours"),
 ];
 
+/// Length of the file that the count in its first bytes announces.
+pub(super) fn announced_length(head: &[u8]) -> Option<u64> {
+    let count = i32::from_le_bytes(*head.first_chunk()?);
+    let count = u64::try_from(count).ok().filter(|count| *count > 0)?;
+    Some(4 + count * RECORD_BYTES as u64)
+}
+
 /// Reads the contents of a file.
 pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<FileVolume, VolumeError> {
     let records = records(path, bytes)?;

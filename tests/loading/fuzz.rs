@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use sootlight::volume::{Limits, Producer, open, summarise};
 
-use super::{hostile, write};
+use super::{hostile, survives_a_render, write};
 
 /// A small random number generator with a fixed sequence (xorshift).
 struct Random(u64);
@@ -87,6 +87,7 @@ fn mutated_files_never_panic_and_never_hang() {
             if let Ok(volume) = result {
                 opened += 1;
                 let _ = summarise(&volume, Producer::Auto);
+                survives_a_render(volume, &format!("round {round}"));
             }
         }
         assert!(

@@ -1,7 +1,6 @@
 //! Large real volumes, where `SOOTLIGHT_SHARED` names the folder that holds `data/`.
 
 use std::fs;
-use std::path::PathBuf;
 
 use glam::IVec3;
 use sootlight::volume::{
@@ -9,15 +8,7 @@ use sootlight::volume::{
 };
 
 use super::{grid, open_one, voxels};
-
-/// The shared folder with large real volumes, or `None` with a printed reason.
-fn shared() -> Option<PathBuf> {
-    let found = std::env::var_os("SOOTLIGHT_SHARED").map(PathBuf::from);
-    if found.is_none() {
-        println!("skipped: SOOTLIGHT_SHARED is not set");
-    }
-    found
-}
+use crate::common::shared;
 
 fn shared_volume(file: &str) -> Option<Volume> {
     let path = shared()?.join("data").join(file);
