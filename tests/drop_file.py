@@ -1,28 +1,30 @@
 """Drops files on a window, as a file manager does, by the X11 drag-and-drop protocol (XDND 5).
 
-    drop_file.py TITLE FILE...
+    drop_file.py [--until-titled NEW] TITLE FILE...
 
-TITLE is a part of the window's title. Ends with 0 once the window says that it took the files.
+TITLE is a part of the window's title. Ends with 0 once the window says that it took the files, or once its title
+contains NEW.
 Needs python3-xlib and an X server, which may be Xvfb.
 """
 
+import argparse
 import pathlib
 import sys
 import time
 
 from Xlib import X, display
+from Xlib.error import BadWindow
 from Xlib.protocol import event
 
-PATIENCE_S = 10.0
+# For the window to appear, to take the files, and to change its title.
+PATIENCE_S = 30.0
 # So long the files hover, so that a highlighted drop target can be seen.
 HOVER_S = 1.0
 
 
-def main(title, paths):
+def main(title, paths, until_titled):
     server = display.Display()
-    target = window_titled(server, server.screen().root, title)
-    if target is None:
-        sys.exit(f"no window whose title has {title!r}")
+    target = awaited(server, title)
     source = server.screen().root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)
     uris = "".join(pathlib.Path(path).resolve().as_uri() + "\r\n" for path in paths).encode()
     source.set_selection_owner(server.intern_atom("XdndSelection"), X.CurrentTime)
@@ -51,8 +53,25 @@ def main(title, paths):
                 dropped = True
                 tell("XdndDrop", 0, X.CurrentTime)
             elif kind == "XdndFinished":
+                if until_titled:
+                    awaited(server, until_titled)
                 return
     sys.exit("the window did not take the files")
+
+
+def awaited(server, title):
+    """The window of that title, as soon as there is one."""
+    until = time.monotonic() + PATIENCE_S
+    while time.monotonic() < until:
+        try:
+            found = window_titled(server, server.screen().root, title)
+        except BadWindow:
+            # It went away between two questions.
+            found = None
+        if found is not None:
+            return found
+        time.sleep(0.1)
+    sys.exit(f"no window whose title has {title!r}")
 
 
 def window_titled(server, window, title):
@@ -88,6 +107,9 @@ def events(server, until):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2:])
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("--until-titled", metavar="NEW")
+    parser.add_argument("title")
+    parser.add_argument("file", nargs="+")
+    told = parser.parse_args()
+    main(told.title, told.file, told.until_titled)

@@ -1,7 +1,10 @@
 //! The window, headless and by accessible label. No display is needed; what needs a graphics driver says so.
 
+mod opening;
+mod real;
 mod shader;
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -46,6 +49,12 @@ fn settle_with_notice(harness: &mut Harness<'_, App>) -> String {
         std::thread::sleep(Duration::from_millis(10));
     }
     panic!("no notice");
+}
+
+/// Prints past the test harness, which keeps what a passing test prints to itself.
+fn say(words: &str) {
+    // Nobody may be reading.
+    let _ = writeln!(std::io::stderr(), "{words}");
 }
 
 fn set_slider(harness: &mut Harness<'_, App>, label: &str, value: f64) {

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::project::{Job, Project, VolumeSettings};
+use crate::project::{CameraSettings, Job, Project, ProjectError, VolumeSettings};
 use crate::volume::{FieldKind, Recognised, Volume, recognise};
 
 /// Steps that can be taken back.
@@ -24,6 +24,8 @@ pub struct Document {
     gesture: bool,
     /// The last job that could be rendered.
     job: Option<Job>,
+    /// What was last asked of the open volume, and for which canvas: the answer stands while this does.
+    asked: Option<(Project, [u32; 2])>,
     problem: Option<String>,
 }
 
@@ -56,6 +58,7 @@ impl Document {
             future: Vec::new(),
             gesture: false,
             job: None,
+            asked: None,
             problem: None,
         }
     }
@@ -71,25 +74,64 @@ impl Document {
     }
 
     /// Shows a volume with the settings as they are: the one that the project itself names.
-    pub fn open(&mut self, volume: Arc<Volume>) {
-        let recognised = recognise(&volume);
-        self.open = Some(OpenVolume { volume, recognised });
-        self.job = None;
+    ///
+    /// # Errors
+    /// [`ProjectError`]: it comes from files that cannot be rendered so. Everything stays as it was.
+    pub fn open(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
+        // The built-in flame can be rendered: there it is a setting that cannot, which a person can change.
+        if !volume.sources.is_empty() {
+            self.project.job(&volume)?;
+        }
+        self.begin(volume);
+        Ok(())
+    }
+
+    /// Shows another volume than the project's. What belonged to the old file — its fields' mapping, where the
+    /// camera stood — goes back to what is chosen from the file; fuel, soot, quality and view stay.
+    ///
+    /// # Errors
+    /// [`ProjectError`]: there is nothing to render in it. Everything stays as it was.
+    pub fn replace(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
+        let mut project = self.project.clone();
+        project.volume = VolumeSettings {
+            path: volume.sources.clone(),
+            ..VolumeSettings::default()
+        };
+        project.camera = CameraSettings::default();
+        project.job(&volume)?;
+        self.project = project;
+        self.begin(volume);
+        Ok(())
+    }
+
+    /// Shows the open volume with a field more: every setting stays, and so does undo.
+    ///
+    /// # Errors
+    /// [`ProjectError`]: it cannot be rendered with these settings. Everything stays as it was.
+    pub fn complete(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
+        self.project.job(&volume)?;
+        // An undo must not take a file away that stays open.
+        let steps = self.past.iter_mut().chain(&mut self.future);
+        for project in steps.chain([&mut self.project]) {
+            project.volume.path.clone_from(&volume.sources);
+        }
+        self.put(volume);
+        Ok(())
+    }
+
+    fn begin(&mut self, volume: Arc<Volume>) {
+        self.put(volume);
         // Undo does not reach behind an opening: an older project names grids of a volume that is gone.
         self.past.clear();
         self.future.clear();
         self.gesture = false;
     }
 
-    /// Shows another volume than the project's. What belonged to the old file — its fields' mapping, where the
-    /// camera stood — goes back to what is chosen from the file; fuel, soot, quality and view stay.
-    pub fn replace(&mut self, volume: Arc<Volume>) {
-        self.project.volume = VolumeSettings {
-            path: volume.sources.clone(),
-            ..VolumeSettings::default()
-        };
-        self.project.camera = crate::project::CameraSettings::default();
-        self.open(volume);
+    fn put(&mut self, volume: Arc<Volume>) {
+        let recognised = recognise(&volume);
+        self.open = Some(OpenVolume { volume, recognised });
+        self.job = None;
+        self.asked = None;
     }
 
     /// Whether one more file may complete the open volume: it came from files and has a single field.
@@ -117,6 +159,10 @@ impl Document {
     /// `None` while there is no volume.
     pub fn job(&mut self, canvas: [u32; 2]) -> Option<&Job> {
         let volume = &self.open.as_ref()?.volume;
+        let asked = self.asked.as_ref();
+        if asked.is_some_and(|(project, size)| *project == self.project && *size == canvas) {
+            return self.job.as_ref();
+        }
         let mut sized = self.project.clone();
         sized.render.size = canvas;
         match sized.job(volume) {
@@ -126,6 +172,7 @@ impl Document {
             }
             Err(error) => self.problem = Some(error.to_string()),
         }
+        self.asked = Some((self.project.clone(), canvas));
         self.job.as_ref()
     }
 
@@ -217,6 +264,31 @@ mod tests {
         set(&mut document, 5.0, false);
         document.redo();
         assert_eq!(document.project.soot.radius_nm, 5.0);
+    }
+
+    #[test]
+    fn a_job_is_made_anew_only_for_another_question() {
+        let mut document = Document::new(Project::default());
+        let torch = || Arc::new(crate::volume::procedural::torch());
+        assert!(document.open(torch()).is_ok());
+        // A job that is made anew has its names at another place: the old one is still alive meanwhile.
+        let mut made = |change: &dyn Fn(&mut Document), canvas| {
+            change(&mut document);
+            let job = document.job(canvas);
+            job.and_then(|job| Some(job.flame.maps.soot.as_ref()?.grid.as_ptr()))
+        };
+        let first = made(&|_| (), [64, 64]);
+        assert!(first.is_some());
+        assert_eq!(made(&|_| (), [64, 64]), first);
+        let wider = made(&|_| (), [65, 64]);
+        assert_ne!(wider, first);
+        let grown = made(&|document| document.project.soot.radius_nm = 31.0, [65, 64]);
+        assert_ne!(grown, wider);
+
+        let another = torch();
+        assert!(document.open(Arc::clone(&another)).is_ok());
+        let job = document.job([65, 64]);
+        assert!(job.is_some_and(|job| Arc::ptr_eq(&job.volume, &another)));
     }
 
     #[test]

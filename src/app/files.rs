@@ -1,6 +1,7 @@
 //! Opening files without holding up the window: each load and each dialog runs on a named thread of its own.
 //!
-//! The newest request wins; what an older one brings is dropped. A failure is a sentence, never a panic.
+//! The newest request that can be read wins: what an older one brings waits until no newer one is left, and is
+//! dropped once a newer one has come. A failure is a sentence, never a panic.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -33,6 +34,8 @@ pub(super) enum Outcome {
     Shown(Arc<Volume>),
     /// A volume that takes the place of the open one.
     Replaced(Arc<Volume>),
+    /// The open volume with a field that it lacked.
+    Completed(Arc<Volume>),
     /// Nothing was opened, and why.
     Failed {
         /// What was asked for.
@@ -46,12 +49,22 @@ pub(super) enum Outcome {
     NoDialog,
 }
 
+/// A load that has not failed and was not overtaken by one that succeeded.
+struct Load {
+    ticket: u64,
+    /// What is being loaded, for a person.
+    words: String,
+    /// What it brought, while a newer load may yet fail.
+    brought: Option<Outcome>,
+}
+
 /// Loads in the background.
 pub(super) struct Loader {
     sender: Sender<(u64, Outcome)>,
     receiver: Receiver<(u64, Outcome)>,
     newest: u64,
-    loading: Option<String>,
+    /// Loads that may still be shown, oldest first.
+    loads: Vec<Load>,
     dialog_open: bool,
     wake: Arc<dyn Fn() + Send + Sync>,
 }
@@ -64,7 +77,7 @@ impl Loader {
             sender,
             receiver,
             newest: 0,
-            loading: None,
+            loads: Vec::new(),
             dialog_open: false,
             wake,
         }
@@ -72,14 +85,18 @@ impl Loader {
 
     /// What is being loaded, for a person.
     pub(super) fn loading(&self) -> Option<&str> {
-        self.loading.as_deref()
+        self.loads.last().map(|load| load.words.as_str())
     }
 
-    /// Begins to load; an older load no longer counts.
+    /// Begins to load; an older load counts only if this one fails.
     pub(super) fn begin(&mut self, request: Request) {
         self.newest += 1;
         let ticket = self.newest;
-        self.loading = Some(request.words());
+        self.loads.push(Load {
+            ticket,
+            words: request.words(),
+            brought: None,
+        });
         let (sender, wake) = (self.sender.clone(), Arc::clone(&self.wake));
         let lost = request.clone();
         let spawned = std::thread::Builder::new()
@@ -144,19 +161,36 @@ impl Loader {
         }
     }
 
-    /// The next outcome, if there is one.
+    /// What was polled is on show: an older load no longer counts.
+    pub(super) fn forget_older(&mut self) {
+        self.loads.clear();
+    }
+
+    /// The next outcome, if there is one. Older loads go on counting until [`Loader::forget_older`].
     pub(super) fn poll(&mut self) -> Option<Outcome> {
-        while let Ok((ticket, outcome)) = self.receiver.try_recv() {
+        loop {
+            if let Some(outcome) = self.loads.last_mut().and_then(|load| load.brought.take()) {
+                self.loads.pop();
+                return Some(outcome);
+            }
+            let (ticket, outcome) = self.receiver.try_recv().ok()?;
             if ticket == 0 {
                 self.dialog_open = false;
                 return Some(outcome);
             }
-            if ticket == self.newest {
-                self.loading = None;
+            let Some(at) = self.loads.iter().position(|load| load.ticket == ticket) else {
+                continue;
+            };
+            if !matches!(outcome, Outcome::Failed { .. }) {
+                self.loads[at].brought = Some(outcome);
+            } else if at + 1 == self.loads.len() {
+                // The load before it, if it still runs, is the newest again.
+                self.loads.truncate(at);
                 return Some(outcome);
+            } else {
+                self.loads.remove(at);
             }
         }
-        None
     }
 }
 
@@ -176,25 +210,22 @@ impl Request {
 
 fn load(request: Request) -> Outcome {
     let limits = Limits::default();
-    let loaded = match &request {
-        Request::BuiltIn => Ok(volume::procedural::torch()),
-        Request::Project(paths) | Request::Files(paths) => volume::open(paths, &limits),
+    let outcome = match &request {
+        Request::BuiltIn => Ok(Outcome::Shown(Arc::new(volume::procedural::torch()))),
+        Request::Project(paths) => volume::open(paths, &limits).map(|v| Outcome::Shown(v.into())),
+        Request::Files(paths) => volume::open(paths, &limits).map(|v| Outcome::Replaced(v.into())),
         Request::Partner(open, path) => open_partner(open, path, &limits),
     };
-    match (loaded, request) {
-        (Ok(volume), Request::BuiltIn | Request::Project(_)) => Outcome::Shown(Arc::new(volume)),
-        (Ok(volume), _) => Outcome::Replaced(Arc::new(volume)),
-        (Err(error), request) => Outcome::Failed {
-            request,
-            words: error.to_string(),
-        },
-    }
+    outcome.unwrap_or_else(|error| Outcome::Failed {
+        request,
+        words: error.to_string(),
+    })
 }
 
 /// The open volume with the file's field; or the file alone, where it has the same field.
-fn open_partner(open: &Volume, path: &Path, limits: &Limits) -> Result<Volume, VolumeError> {
+fn open_partner(open: &Volume, path: &Path, limits: &Limits) -> Result<Outcome, VolumeError> {
     match open.with_file(path, limits) {
-        Ok(both) => Ok(both),
+        Ok(both) => Ok(Outcome::Completed(both.into())),
         Err(together) => {
             let alone = volume::open(&[path.to_owned()], limits)?;
             let partner = matches!(together, VolumeError::DimensionsDiffer { .. })
@@ -203,7 +234,11 @@ fn open_partner(open: &Volume, path: &Path, limits: &Limits) -> Result<Volume, V
                     .iter()
                     .all(|grid| open.grid(&grid.name).is_none());
             // A temperature of other dimensions was meant for this density, and cannot serve it.
-            if partner { Err(together) } else { Ok(alone) }
+            if partner {
+                Err(together)
+            } else {
+                Ok(Outcome::Replaced(alone.into()))
+            }
         }
     }
 }
@@ -232,11 +267,35 @@ mod tests {
     }
 
     #[test]
-    fn an_older_load_does_not_win() {
-        let mut loader = Loader::new(Arc::new(|| {}));
-        loader.newest = 2;
-        let late = Outcome::Chosen(vec![PathBuf::from("old")]);
-        assert!(loader.sender.send((1, late)).is_ok());
-        assert!(loader.poll().is_none());
+    fn an_older_load_wins_only_once_the_newer_one_failed() {
+        let shown = || Outcome::Shown(Arc::new(volume::procedural::torch()));
+        let failed = || Outcome::Failed {
+            request: Request::BuiltIn,
+            words: String::new(),
+        };
+        // Two loads run; the older one is the first to end.
+        let with_two = || {
+            let mut loader = Loader::new(Arc::new(|| {}));
+            loader.loads.extend([1, 2].map(|ticket| Load {
+                ticket,
+                words: ticket.to_string(),
+                brought: None,
+            }));
+            assert!(loader.sender.send((1, shown())).is_ok());
+            assert!(loader.poll().is_none());
+            assert_eq!(loader.loading(), Some("2"));
+            loader
+        };
+
+        let mut loader = with_two();
+        assert!(loader.sender.send((2, failed())).is_ok());
+        assert!(matches!(loader.poll(), Some(Outcome::Failed { .. })));
+        assert!(matches!(loader.poll(), Some(Outcome::Shown(_))));
+
+        let mut loader = with_two();
+        assert!(loader.sender.send((2, shown())).is_ok());
+        assert!(matches!(loader.poll(), Some(Outcome::Shown(_))));
+        loader.forget_older();
+        assert!(loader.poll().is_none() && loader.loading().is_none());
     }
 }

@@ -1,12 +1,12 @@
 //! Automatic exposure and white: measured when a volume is first seen, then kept, so that a slider that makes the
-//! fire darker makes the picture darker.
+//! fire darker makes the picture darker. And what is wrong with a film, in words.
 
 use std::sync::Arc;
 
 use crate::colour::display::View;
 use crate::engine::{Generation, Picture};
-use crate::render::Film;
 use crate::render::develop::{Metering, ViewParams};
+use crate::render::{Film, Flaws, Pixel};
 use crate::volume::Volume;
 
 /// A picture whose brightest pixel is darker than this share of display white shows nothing.
@@ -20,16 +20,35 @@ pub(super) struct Meter {
     volume: Option<Arc<Volume>>,
     /// The job whose first whole pass was judged last.
     judged: Option<Generation>,
+    /// The job that was measured before it had its full resolution.
+    coarse: Option<Generation>,
+    /// The film that was looked through last: its job, and how many passes were whole.
+    seen: Option<(Generation, usize)>,
+    flaws: Flaws,
 }
 
 impl Meter {
     /// Looks at a picture of `volume` of which at least one pass is whole: measures it if it is the first one, or
-    /// if nothing could be seen otherwise.
+    /// if nothing could be seen otherwise. A coarse picture that was measured is measured again when it has become
+    /// a full one, because a still is.
     pub(super) fn follow(&mut self, volume: &Arc<Volume>, picture: &Picture) {
-        if self.judged == picture.generation() {
+        let Some(generation) = picture.generation() else {
+            return;
+        };
+        let done = picture.progress.done;
+        if self.seen != Some((generation, done)) {
+            self.seen = Some((generation, done));
+            self.flaws = flaws_of(picture.film());
+        }
+        let mut whole = picture.progress.passes.iter().take(done);
+        let full = whole.any(|pass| pass.stride == 1);
+        if self.judged == Some(generation) {
+            if full && self.coarse == Some(generation) {
+                self.measure(picture.film());
+            }
             return;
         }
-        self.judged = picture.generation();
+        self.judged = Some(generation);
         if !self
             .volume
             .as_ref()
@@ -41,13 +60,22 @@ impl Meter {
         let visible = self
             .metering
             .is_some_and(|metering| peak_y(picture.film()) * metering.exposure > INVISIBLE);
+        // What was measured on an older job stays: it is what the sliders' effect is judged by.
+        self.coarse = None;
         if !visible {
             self.measure(picture.film());
+            self.coarse = (!full).then_some(generation);
         }
+    }
+
+    /// What is wrong with the picture that was followed last.
+    pub(super) fn flaws(&self) -> &Flaws {
+        &self.flaws
     }
 
     /// Measures a film. A black one tells nothing: what was measured before stays.
     pub(super) fn measure(&mut self, film: &Film) {
+        self.coarse = None;
         let metering = Metering::of(film);
         if metering.bright_y > 0.0 {
             self.metering = Some(metering);
@@ -73,4 +101,59 @@ fn peak_y(film: &Film) -> f64 {
         .map(|pixel| pixel.xyz[1])
         .filter(|y| y.is_finite());
     f64::from(finite.fold(0.0, f32::max))
+}
+
+/// What a film says against itself, in the words of `sootlight render`.
+fn flaws_of(film: &Film) -> Flaws {
+    let mut flaws = Flaws::default();
+    let is_spoilt = |pixel: &&Pixel| {
+        let mut values = pixel.xyz.iter().chain(&pixel.opacity);
+        values.any(|value| !value.is_finite())
+    };
+    let spoilt = film.pixels().iter().filter(is_spoilt).count();
+    if peak_y(film) <= 0.0 {
+        flaws.add("the picture is black: nothing in it glows, or the camera looks elsewhere");
+    }
+    if spoilt > 0 {
+        flaws.add(format!(
+            "{spoilt} pixels are no numbers and are shown as black"
+        ));
+    }
+    flaws
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::Tile;
+
+    fn film(pixels: [[f32; 3]; 2]) -> Film {
+        let mut film = Film::new([2, 1]);
+        film.merge(&Tile {
+            stride: 1,
+            sample: 0,
+            origin: [0, 0],
+            size: [2, 1],
+            pixels: pixels
+                .map(|xyz| Pixel {
+                    xyz,
+                    opacity: [0.0; 3],
+                })
+                .to_vec(),
+            samples: 0,
+        });
+        film
+    }
+
+    #[test]
+    fn a_black_film_and_spoilt_pixels_are_told() {
+        let words = |pixels| {
+            let flaws = flaws_of(&film(pixels));
+            flaws.iter().collect::<Vec<_>>().join("; ")
+        };
+        assert_eq!(words([[1.0; 3], [0.0; 3]]), "");
+        assert!(words([[0.0; 3]; 2]).starts_with("the picture is black"));
+        let spoilt = words([[1.0; 3], [f32::NAN, 1.0, 1.0]]);
+        assert!(spoilt.starts_with("1 pixels are no numbers"), "{spoilt}");
+    }
 }

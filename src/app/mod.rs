@@ -28,7 +28,8 @@ use self::meter::Meter;
 use self::panels::{Command, Panels};
 use crate::colour::display::View;
 use crate::engine::{Engine, Generation, Picture};
-use crate::project::{Job, Project};
+use crate::project::{CameraSettings, Job, Project, ProjectError, VolumeSettings};
+use crate::volume::Volume;
 
 /// While tiles come in, the picture is drawn this often: each drawing takes time from the workers where the
 /// processor is also the graphics card.
@@ -141,6 +142,7 @@ impl App {
             (Some(open), [path]) => Request::Partner(Arc::clone(open), path.clone()),
             _ => Request::Files(paths),
         };
+        self.notice = None;
         self.loader.begin(request);
     }
 
@@ -167,31 +169,45 @@ impl App {
     fn receive(&mut self) {
         while let Some(outcome) = self.loader.poll() {
             match outcome {
-                Outcome::Shown(volume) => self.document.open(volume),
-                Outcome::Replaced(volume) => {
-                    self.document.replace(volume);
-                    self.notice = None;
-                }
+                Outcome::Shown(volume) => self.show(volume, Document::open),
+                Outcome::Replaced(volume) => self.show(volume, Document::replace),
+                Outcome::Completed(volume) => self.show(volume, Document::complete),
                 Outcome::Failed { request, words } => {
-                    let nothing_open = self.document.volume().is_none();
-                    let instead = matches!(request, Request::Project(_)) && nothing_open;
-                    if instead {
-                        // The settings were made for files that are not there.
-                        self.document.project.volume = crate::project::VolumeSettings::default();
-                        self.document.project.camera = crate::project::CameraSettings::default();
-                        self.loader.begin(Request::BuiltIn);
-                    }
-                    let end = if instead {
-                        ". The built-in flame is shown instead"
-                    } else {
-                        ""
-                    };
-                    self.notice = Some(format!("{words}{end}"));
+                    self.refuse(&words, !matches!(request, Request::BuiltIn));
                 }
                 Outcome::Chosen(paths) => self.open(paths),
                 Outcome::NoDialog => self.panels.file.no_dialog = true,
             }
         }
+    }
+
+    /// Shows a volume in one of the document's ways, or says why not.
+    fn show(
+        &mut self,
+        volume: Arc<Volume>,
+        way: fn(&mut Document, Arc<Volume>) -> Result<(), ProjectError>,
+    ) {
+        let name = |path: &PathBuf| path.display().to_string();
+        let names = volume.sources.iter().map(name).collect::<Vec<_>>();
+        match way(&mut self.document, volume) {
+            Ok(()) => self.loader.forget_older(),
+            Err(error) => self.refuse(&format!("{}: {error}", names.join(", ")), true),
+        }
+    }
+
+    /// Says why something was not opened. Where that would leave the window without anything, the built-in flame
+    /// is shown, unless that is what failed.
+    fn refuse(&mut self, words: &str, built_in_may_help: bool) {
+        let empty = self.document.volume().is_none() && self.loader.loading().is_none();
+        let mut end = "";
+        if empty && built_in_may_help {
+            // The settings were made for files that are not shown.
+            self.document.project.volume = VolumeSettings::default();
+            self.document.project.camera = CameraSettings::default();
+            self.loader.begin(Request::BuiltIn);
+            end = ". The built-in flame is shown instead";
+        }
+        self.notice = Some(format!("{words}{end}"));
     }
 
     /// Submits the document's job if it is another than the one submitted last.

@@ -38,7 +38,7 @@ fn the_shader_shows_what_the_processor_computes() {
         egui_kittest::wgpu::create_render_state(setup, RendererOptions::PREDICTABLE)
     });
     let Ok(state) = state else {
-        println!("skipped: no graphics driver");
+        super::say("skipped: no graphics driver");
         return;
     };
     let colours = random_colours();

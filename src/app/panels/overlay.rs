@@ -32,6 +32,7 @@ fn notes(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     ]
     .into_iter()
     .filter_map(|(words, dismissible)| Some((words?, dismissible)))
+    .chain(app.meter.flaws().iter().map(|words| (words, false)))
     .collect();
     if notes.is_empty() {
         return;

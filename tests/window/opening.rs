@@ -1,0 +1,149 @@
+//! What is shown when files cannot be opened, complete what is open, or are asked for in a hurry.
+
+use sootlight::render::develop::Metering;
+
+use super::*;
+
+/// A window on which files were dropped before its first volume could be read.
+fn window_dropped_on(project: Project, paths: Vec<PathBuf>) -> Harness<'static, App> {
+    let mut harness = Harness::builder()
+        .with_size([480.0, 320.0])
+        .build_eframe(|creation| {
+            let mut app = App::new(creation, project).expect("the system gives threads");
+            app.open(paths);
+            app
+        });
+    settle(&mut harness);
+    harness
+}
+
+fn write_bad(folder: &Path) -> PathBuf {
+    let bad = folder.join("bad.txt");
+    std::fs::write(&bad, "3 3 3\n1 2 three\n").expect("the temporary folder can be written");
+    bad
+}
+
+/// A file that can be read and has nothing in it.
+fn empty_grid() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hostile/vdb_emptygrid.vdb")
+}
+
+#[test]
+fn a_bad_file_dropped_at_once_leaves_the_first_volume_to_come() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (soot, _) = soot_and_heat(folder.path());
+    let mut project = Project::default();
+    project.volume.path = vec![soot];
+    let harness = window_dropped_on(project, vec![write_bad(folder.path())]);
+    harness.get_by_label("soot.txt");
+    harness.get_by_label_contains("bad.txt");
+}
+
+#[test]
+fn a_file_of_nothing_dropped_at_once_leaves_the_first_volume_to_come() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (soot, _) = soot_and_heat(folder.path());
+    let mut project = Project::default();
+    project.volume.path = vec![soot];
+    let harness = window_dropped_on(project, vec![empty_grid()]);
+    harness.get_by_label("soot.txt");
+    harness.get_by_label_contains("nothing to render");
+}
+
+#[test]
+fn two_bad_files_give_the_built_in_flame() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut project = Project::default();
+    project.volume.path = vec![PathBuf::from("no/such/file.vdb")];
+    let harness = window_dropped_on(project, vec![write_bad(folder.path())]);
+    harness.get_by_label("built-in flame");
+    harness.get_by_label_contains("The built-in flame is shown instead");
+}
+
+#[test]
+fn a_file_with_nothing_to_render_leaves_the_scene_and_says_why() {
+    let mut harness = window(Project::default());
+    set_slider(&mut harness, "Soot radius", 60.0);
+    settle(&mut harness);
+    let before = (
+        harness.state().generation(),
+        harness.state().document().project.clone(),
+    );
+    drop_files(&mut harness, &[&empty_grid()]);
+    let words = settle_with_notice(&mut harness);
+    assert!(
+        words.contains("vdb_emptygrid.vdb") && words.contains("nothing to render"),
+        "{words}"
+    );
+    settle(&mut harness);
+    harness.get_by_label_contains("nothing to render");
+    harness.get_by_label("built-in flame");
+    let after = (
+        harness.state().generation(),
+        harness.state().document().project.clone(),
+    );
+    assert_eq!(after, before);
+    // Undo is still there.
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert_ne!(harness.state().document().project, before.1);
+}
+
+#[test]
+fn a_partner_keeps_every_setting_and_undo() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (soot, heat) = soot_and_heat(folder.path());
+    let mut project = Project::default();
+    project.volume.path = vec![soot.clone()];
+    project.volume.producer = sootlight::volume::Producer::Physical;
+    project.volume.voxel_size_m = Some(0.02);
+    project.volume.soot.scale = Some(2.0);
+    project.camera.fov_deg = Some(25.0);
+    let mut harness = window(project);
+    let radius = harness.state().document().project.soot.radius_nm;
+    set_slider(&mut harness, "Soot radius", 60.0);
+    let mut wanted = harness.state().document().project.clone();
+
+    drop_files(&mut harness, &[&heat]);
+    settle(&mut harness);
+    wanted.volume.path = vec![soot, heat];
+    assert_eq!(harness.state().document().project, wanted);
+    harness.get_by_label("soot.txt + temperature.txt");
+    harness.get_by_label_contains("1700 K");
+
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    wanted.soot.radius_nm = radius;
+    assert_eq!(harness.state().document().project, wanted);
+}
+
+#[test]
+fn a_black_picture_is_told() {
+    let mut harness = window(Project::default());
+    assert!(harness.query_by_label_contains("black").is_none());
+    harness.state_mut().document_mut().project.soot.amount = 0.0;
+    harness.run_steps(2);
+    settle(&mut harness);
+    harness.get_by_label_contains("the picture is black");
+    harness.state_mut().document_mut().project.soot.amount = 1.0;
+    harness.run_steps(2);
+    settle(&mut harness);
+    assert!(harness.query_by_label_contains("black").is_none());
+}
+
+#[test]
+fn the_first_full_picture_is_exposed_as_a_still_of_it() {
+    let mut harness = window(Project::default());
+    let still = |harness: &Harness<'_, App>| {
+        let app = harness.state();
+        Metering::of(app.picture().film()).view(&app.document().project.view())
+    };
+    let view = harness.state().view();
+    assert_eq!(view, still(&harness));
+
+    // What a slider does is not metered away.
+    set_slider(&mut harness, "Soot amount", 3.0);
+    settle(&mut harness);
+    assert_eq!(harness.state().view(), view);
+    assert_ne!(view, still(&harness));
+}
