@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::colour::display::View;
 use crate::engine::{Generation, Picture};
-use crate::render::develop::{Metering, ViewParams};
-use crate::render::{Film, Flaws, Pixel};
+use crate::render::develop::{Metering, ViewParams, flaws_of};
+use crate::render::{Film, Flaws};
 use crate::volume::Volume;
 
 /// A picture whose brightest pixel is darker than this share of display white shows nothing.
@@ -101,25 +101,6 @@ fn peak_y(film: &Film) -> f64 {
         .map(|pixel| pixel.xyz[1])
         .filter(|y| y.is_finite());
     f64::from(finite.fold(0.0, f32::max))
-}
-
-/// What a film says against itself, in the words of `sootlight render`.
-fn flaws_of(film: &Film) -> Flaws {
-    let mut flaws = Flaws::default();
-    let is_spoilt = |pixel: &&Pixel| {
-        let mut values = pixel.xyz.iter().chain(&pixel.opacity);
-        values.any(|value| !value.is_finite())
-    };
-    let spoilt = film.pixels().iter().filter(is_spoilt).count();
-    if peak_y(film) <= 0.0 {
-        flaws.add("the picture is black: nothing in it glows, or the camera looks elsewhere");
-    }
-    if spoilt > 0 {
-        flaws.add(format!(
-            "{spoilt} pixels are no numbers and are shown as black"
-        ));
-    }
-    flaws
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::{load, output};
 use crate::colour::display::BakedView;
 use crate::export::{self, Encoded, Provenance};
 use crate::project::Job;
-use crate::render::develop::Metering;
+use crate::render::develop::{Metering, flaws_of};
 use crate::render::{Cancel, Flaws, Frame, render_still};
 use crate::scene::Scene;
 
@@ -80,11 +80,9 @@ impl Render {
         let metering = Metering::of(&frame.film);
         let mut flaws = job.flaws.clone();
         flaws.extend(frame.flaws.iter().map(String::from));
-        if metering.is_black() {
-            flaws.add("the picture is black: nothing in it is hot enough to be seen, or the camera looks elsewhere");
-        }
-        let encode = |flaws: &Flaws| -> Result<Encoded, export::ExportError> {
-            let provenance = Provenance::new(&self.project, flaws);
+        flaws.extend(flaws_of(&frame.film).iter().map(String::from));
+        let encode = || -> Result<Encoded, export::ExportError> {
+            let provenance = Provenance::new(&self.project, &flaws);
             match self.format {
                 Format::Png(bits) => {
                     let view = BakedView::new(&metering.view(&self.project.view()));
@@ -94,15 +92,7 @@ impl Render {
             }
         };
         let failed = |error| CliError::failed("the picture was not written", error);
-        let mut encoded = encode(&flaws).map_err(failed)?;
-        if encoded.spoilt_pixels > 0 {
-            flaws.add(format!(
-                "{} pixels were no numbers and are written as black",
-                encoded.spoilt_pixels
-            ));
-            // The file must say so itself.
-            encoded = encode(&flaws).map_err(failed)?;
-        }
+        let encoded = encode().map_err(failed)?;
         export::write(&self.output, &encoded.bytes).map_err(failed)?;
         Ok((metering, flaws))
     }

@@ -4,6 +4,7 @@
 
 use rayon::prelude::*;
 
+use super::Flaws;
 use super::film::{Film, Pixel};
 use crate::colour::cie;
 use crate::colour::display::{BakedView, Curve, View};
@@ -102,6 +103,29 @@ impl Metering {
             curve: params.curve,
         }
     }
+}
+
+/// What a film says against itself: that there is nothing to see, or pixels that are no numbers (shown and written
+/// as black).
+pub fn flaws_of(film: &Film) -> Flaws {
+    let mut flaws = Flaws::default();
+    if Metering::of(film).is_black() {
+        flaws.add("the picture is black: nothing in it is hot enough to be seen, or the camera looks elsewhere");
+    }
+    let is_spoilt = |pixel: &&Pixel| {
+        pixel
+            .xyz
+            .iter()
+            .chain(&pixel.opacity)
+            .any(|value| !value.is_finite())
+    };
+    let spoilt = film.pixels().iter().filter(is_spoilt).count();
+    if spoilt > 0 {
+        flaws.add(format!(
+            "{spoilt} pixels are no numbers and are shown as black"
+        ));
+    }
+    flaws
 }
 
 /// Display values of a film, sRGB-encoded, 0 to 1, row by row from the top.

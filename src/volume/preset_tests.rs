@@ -40,7 +40,9 @@ fn blender_heat_becomes_kelvin_and_flame_becomes_soot() {
     assert!(near(top(maps.temperature.as_ref(), 2.4), 2000.0));
     assert!(near(top(maps.temperature.as_ref(), 0.0), 300.0));
     assert!(
-        plan.assumptions.iter().any(|it| it.words.contains("peak of 2.4:")),
+        plan.assumptions
+            .iter()
+            .any(|it| it.words.contains("peak of 2.4:")),
         "{:?}",
         plan.assumptions
     );
