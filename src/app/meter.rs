@@ -106,6 +106,7 @@ fn peak_y(film: &Film) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::Pixel;
     use crate::render::Tile;
 
     fn film(pixels: [[f32; 3]; 2]) -> Film {

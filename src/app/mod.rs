@@ -151,6 +151,16 @@ impl App {
         self.generation().is_some() && self.picture.generation() == self.generation()
     }
 
+    /// What was assumed of the file or cannot be faithful in the picture on show, in words.
+    fn flaws(&self) -> Vec<&str> {
+        let assumed = self
+            .document
+            .last_job()
+            .into_iter()
+            .flat_map(|job| job.flaws.iter());
+        assumed.chain(self.picture.progress.flaws.iter()).collect()
+    }
+
     /// Takes in what the engine rendered.
     fn drain(&mut self) {
         for update in self.engine.drain() {
@@ -308,7 +318,9 @@ impl eframe::App for App {
         let before = self.document.project.clone();
         let mut commands = Vec::new();
         panels::status(ui, self);
-        self.panels.show(ui, &mut self.document, &mut commands);
+        let flaws: Vec<String> = self.flaws().into_iter().map(String::from).collect();
+        self.panels
+            .show(ui, &mut self.document, &flaws, &mut commands);
         self.document
             .remember(before, ctx.input(|input| input.pointer.any_down()));
 

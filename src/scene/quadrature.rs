@@ -188,9 +188,9 @@ fn fitted(count: u32, soot: SootLaw) -> Wavelengths {
     for c in 0..3 {
         let white: f64 = daylight.iter().map(|weight| weight[c]).sum();
         let ours: f64 = opacity.iter().map(|weight| weight[c]).sum();
-        opacity
-            .iter_mut()
-            .for_each(|weight| weight[c] *= white / ours);
+        for weight in &mut opacity {
+            weight[c] *= white / ours;
+        }
     }
     Wavelengths {
         xyz: emission.solve(),

@@ -73,9 +73,13 @@ pub(super) fn findings(ui: &mut Ui, document: &Document) {
              volume of gas.",
         );
     }
-    if !job.flaws.is_empty() {
+}
+
+/// Everything assumed or not faithful.
+pub(super) fn flaws(ui: &mut Ui, flaws: &[String]) {
+    if !flaws.is_empty() {
         headline(ui, "Assumed or not faithful");
-        for flaw in job.flaws.iter() {
+        for flaw in flaws {
             ui.label(RichText::new(format!("• {flaw}")).color(WARNING));
         }
     }

@@ -49,6 +49,7 @@ impl Panels {
         &mut self,
         ui: &mut Ui,
         document: &mut Document,
+        flaws: &[String],
         commands: &mut Vec<Command>,
     ) {
         let frame = Frame::new().fill(ui.visuals().panel_fill);
@@ -64,6 +65,7 @@ impl Panels {
                         view::show(ui, &mut document.project, commands);
                         quality::show(ui, &mut document.project);
                         file::findings(ui, document);
+                        file::flaws(ui, flaws);
                     });
                 });
             });

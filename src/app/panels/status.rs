@@ -5,6 +5,7 @@ use std::time::Duration;
 use egui::{Frame, Label, Margin, Panel, ProgressBar, RichText, Ui, vec2};
 
 use crate::app::App;
+use crate::app::theme::WARNING;
 use crate::engine::picture::Progress;
 
 /// Draws the line.
@@ -37,6 +38,7 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
                     .submitted
                     .as_ref()
                     .map_or(Duration::ZERO, |submitted| submitted.at.elapsed());
+                flaw_count(ui, &app.flaws());
                 for (words, width) in cells(progress, since) {
                     // Cells of fixed width: the line does not jump while its numbers run.
                     let text = Label::new(RichText::new(words)).truncate();
@@ -47,6 +49,18 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
                 }
             });
         });
+}
+
+/// How much of the picture is assumed, always in sight; all of it in words under the pointer. It comes before the
+/// numbers, so that a narrow window cuts those first.
+fn flaw_count(ui: &mut Ui, flaws: &[&str]) {
+    let words = match flaws.len() {
+        0 => return,
+        1 => "1 assumption".to_owned(),
+        n => format!("{n} assumptions"),
+    };
+    ui.label(RichText::new(words).color(WARNING))
+        .on_hover_text(flaws.join("\n"));
 }
 
 /// Finished share of all rays, 0 to 1.
