@@ -159,7 +159,17 @@ fn a_cancel_leaves_nothing_to_drain_and_the_next_job_runs() {
     let (engine, _) = engine();
     let size = [64, 64];
     engine.submit(numbered(2, [1024, 1024]));
+    // Cancelled in the middle of a pass, once tiles have come.
+    let begun = Instant::now();
+    while engine.drain().is_empty() {
+        assert!(begun.elapsed() < PATIENCE);
+        std::thread::yield_now();
+    }
     engine.cancel();
+    for _ in 0..50 {
+        assert!(engine.drain().is_empty(), "news of a cancelled job");
+        std::thread::sleep(Duration::from_micros(200));
+    }
     let generation = engine.submit(numbered(4, size));
     let mut picture = Picture::new(size);
     wait(&engine, &mut picture, |picture| picture.progress.finished);

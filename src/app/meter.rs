@@ -12,6 +12,9 @@ use crate::volume::Volume;
 /// A picture whose brightest pixel is darker than this share of display white shows nothing.
 const INVISIBLE: f64 = 1.0 / 512.0;
 
+/// Pictures with a shorter side, as while a window is being resized or unfolded, show too little to be judged.
+const LEAST_SIDE: u32 = 32;
+
 /// Holds what was measured.
 #[derive(Default)]
 pub(super) struct Meter {
@@ -35,6 +38,9 @@ impl Meter {
         let Some(generation) = picture.generation() else {
             return;
         };
+        if picture.film().size().iter().any(|&side| side < LEAST_SIDE) {
+            return;
+        }
         let done = picture.progress.done;
         if self.seen != Some((generation, done)) {
             self.seen = Some((generation, done));

@@ -13,7 +13,6 @@ use toml::{Table, Value};
 use super::Project;
 use super::set::{self, SetError};
 
-pub mod one_or_many;
 mod whole;
 
 pub use whole::{Target, write_whole};

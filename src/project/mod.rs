@@ -7,6 +7,7 @@ mod error;
 mod fields;
 pub mod file;
 pub mod job;
+pub mod one_or_many;
 pub mod set;
 pub mod settings;
 

@@ -40,10 +40,7 @@ pub struct Project {
 #[serde(default, deny_unknown_fields)]
 pub struct VolumeSettings {
     /// One path or a list; empty for the built-in flame. In a scene file relative to that file.
-    #[serde(
-        with = "super::file::one_or_many",
-        skip_serializing_if = "Vec::is_empty"
-    )]
+    #[serde(with = "super::one_or_many", skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<PathBuf>,
     /// Whose conventions the fields follow; auto: recognised from the file.
     pub producer: Producer,

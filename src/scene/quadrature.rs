@@ -240,7 +240,8 @@ mod tests {
 
     #[test]
     fn more_fitted_wavelengths_are_nearer_the_full_observer() {
-        // Ceilings: twice the plume page's errors for the whole picture, because single spectra scatter.
+        // Over a whole picture the sets are within 0.19, 0.03 and 0.001 %; single spectra at the family's rim scatter
+        // around that by up to six times.
         for (set, ceiling) in [(4, 1.2e-2), (6, 1e-3), (8, 5e-5)] {
             for temperature_k in [1100.0, 1500.0, 1925.0] {
                 for depth in [0.1, 1.0, 3.0] {
