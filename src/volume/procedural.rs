@@ -115,17 +115,17 @@ fn mixture_fraction(point: Vec3) -> Option<f32> {
         EDDY_M * smoothstep(-0.1, 0.5, height),
         CURL_M * smoothstep(0.0, 0.3, height),
     ];
-    let reach = radius + 1.2 * (sway + eddy + curl);
-    if !(0.0..1.25).contains(&height) || point.truncate().length() > reach {
+    // Whether the warps still to come can carry a point into the column: noise is dear, and most of the box is air.
+    let out_of_reach = |point: Vec3, warps: f32| point.truncate().length() > radius + 1.2 * warps;
+    if !(0.0..1.25).contains(&height) || out_of_reach(point, sway + eddy + curl) {
         return None;
     }
     // The warp: slow swaying of the whole, eddies that rise and stretch, fine curls on the sheets.
     let flow = Vec3::new(point.x, point.y, 0.42 * point.z);
     let swayed = flow + noise_vector(flow * 9.0 + Vec3::splat(3.7)) * sway;
-    let turned = swayed + noise_vector(swayed * 30.0 + Vec3::splat(1.3)) * eddy;
-    let curled = turned + noise_vector(turned * 74.0) * curl;
-    let distance = curled.truncate().length() / radius;
-
+    if out_of_reach(swayed, eddy + curl) {
+        return None;
+    }
     // Tongues: some columns of gas burn out sooner than others.
     let tongue = noise(Vec3::new(
         swayed.x * 34.0,
@@ -133,7 +133,16 @@ fn mixture_fraction(point: Vec3) -> Option<f32> {
         swayed.z * 16.0 + 0.6,
     ));
     let burning = 1.0 - 0.95 * height.powf(1.3) + 2.3 * height * (1.1 - height) * tongue;
-    Some((burning.max(0.0) * (1.0 - distance * distance).max(0.0)).min(1.0))
+    if burning <= 0.0 {
+        return None;
+    }
+    let turned = swayed + noise_vector(swayed * 30.0 + Vec3::splat(1.3)) * eddy;
+    if out_of_reach(turned, curl) {
+        return None;
+    }
+    let curled = turned + noise_vector(turned * 74.0) * curl;
+    let distance = curled.truncate().length() / radius;
+    Some((burning * (1.0 - distance * distance).max(0.0)).min(1.0))
 }
 
 /// 0 below `low`, 1 above `high`, smooth between.
@@ -152,12 +161,15 @@ fn noise_vector(point: Vec3) -> Vec3 {
 
 /// Gradient noise, about −1 to 1, features of size 1 (Perlin 2002: quintic fade, twelve edge gradients).
 fn noise(point: Vec3) -> f32 {
-    let cell = point.floor();
-    let f = point - cell;
+    // Rounded down without a call: the coordinates are far below 2³¹.
+    let toward_zero = point.as_ivec3();
+    let above = toward_zero.as_vec3().cmpgt(point);
+    let cell = toward_zero - IVec3::new(i32::from(above.x), i32::from(above.y), i32::from(above.z));
+    let f = point - cell.as_vec3();
     let fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
     let corner = |x: i32, y: i32, z: i32| {
         let offset = IVec3::new(x, y, z);
-        gradient(cell.as_ivec3() + offset).dot(f - offset.as_vec3())
+        gradient(cell + offset).dot(f - offset.as_vec3())
     };
     let mix = |a: f32, b: f32, t: f32| a + t * (b - a);
     let along_x = |y, z| mix(corner(0, y, z), corner(1, y, z), fade.x);
@@ -165,7 +177,30 @@ fn noise(point: Vec3) -> f32 {
     mix(along_y(0), along_y(1), fade.z)
 }
 
-/// One of the twelve directions to a cube's edges, by a hash of the lattice point (mixing as in MurmurHash3,
+/// The directions from a cube's centre to the middles of its edges.
+const GRADIENTS: [Vec3; 12] = {
+    const fn edges(x: Vec3, y: Vec3) -> [Vec3; 4] {
+        [
+            sum(x, y, 1.0, 1.0),
+            sum(x, y, -1.0, 1.0),
+            sum(x, y, 1.0, -1.0),
+            sum(x, y, -1.0, -1.0),
+        ]
+    }
+    const fn sum(x: Vec3, y: Vec3, a: f32, b: f32) -> Vec3 {
+        Vec3::new(a * x.x + b * y.x, a * x.y + b * y.y, a * x.z + b * y.z)
+    }
+    let [p, q, r] = [
+        edges(Vec3::X, Vec3::Y),
+        edges(Vec3::X, Vec3::Z),
+        edges(Vec3::Y, Vec3::Z),
+    ];
+    [
+        p[0], p[1], p[2], p[3], q[0], q[1], q[2], q[3], r[0], r[1], r[2], r[3],
+    ]
+};
+
+/// One of [`GRADIENTS`], by a hash of the lattice point (mixing as in MurmurHash3,
 /// Appleby 2011).
 fn gradient(point: IVec3) -> Vec3 {
     let mut hash = (point.x as u32).wrapping_mul(0x9e37_79b1)
@@ -174,13 +209,7 @@ fn gradient(point: IVec3) -> Vec3 {
     hash = (hash ^ hash >> 16).wrapping_mul(0x85eb_ca6b);
     hash = (hash ^ hash >> 13).wrapping_mul(0xc2b2_ae35);
     hash ^= hash >> 16;
-    let sign = |bit: u32| if hash >> bit & 1 == 0 { 1.0 } else { -1.0 };
-    let (a, b) = (sign(8), sign(9));
-    match hash % 3 {
-        0 => Vec3::new(a, b, 0.0),
-        1 => Vec3::new(a, 0.0, b),
-        _ => Vec3::new(0.0, a, b),
-    }
+    GRADIENTS[(hash % 3 * 4 + (hash >> 8 & 3)) as usize]
 }
 
 #[cfg(test)]
