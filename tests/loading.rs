@@ -12,7 +12,7 @@ use glam::{DVec3, IVec3};
 use sootlight::project::Project;
 use sootlight::render::{Cancel, render_still};
 use sootlight::volume::{
-    Border, Grid, Limits, Producer, Volume, VolumeError, open, preset, recognise, summarise,
+    Border, Grid, Limits, Producer, Volume, VolumeError, open, recognise, summarise,
 };
 
 fn hostile(name: &str) -> PathBuf {
@@ -181,7 +181,7 @@ fn a_second_file_fills_the_missing_field_but_never_doubles_one() {
     assert_eq!(grid(&volume, "temperature").value(IVec3::X), 1800.0);
     assert_eq!(grid(&volume, "soot").value(IVec3::X), 2e-6);
     assert_eq!(recognise(&volume).producer, Producer::Physical);
-    assert!(preset(Producer::Auto, &volume).maps.check(&volume).is_ok());
+    assert!(Project::default().job(&Arc::new(volume.clone())).is_ok());
 
     let again = volume.with_file(&soot, &Limits::default());
     assert!(

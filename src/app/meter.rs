@@ -44,7 +44,7 @@ impl Meter {
         let done = picture.progress.done;
         if self.seen != Some((generation, done)) {
             self.seen = Some((generation, done));
-            self.flaws = flaws_of(picture.film());
+            self.flaws = flaws_of(picture.film(), &Metering::of(picture.film()));
         }
         let mut whole = picture.progress.passes.iter().take(done);
         let full = whole.any(|pass| pass.stride == 1);
@@ -136,7 +136,8 @@ mod tests {
     #[test]
     fn a_black_film_and_spoilt_pixels_are_told() {
         let words = |pixels| {
-            let flaws = flaws_of(&film(pixels));
+            let film = film(pixels);
+            let flaws = flaws_of(&film, &Metering::of(&film));
             flaws.iter().collect::<Vec<_>>().join("; ")
         };
         assert_eq!(words([[1.0; 3], [0.0; 3]]), "");

@@ -80,7 +80,7 @@ impl Render {
         let metering = Metering::of(&frame.film);
         let mut flaws = job.flaws.clone();
         flaws.extend(frame.flaws.iter().map(String::from));
-        flaws.extend(flaws_of(&frame.film).iter().map(String::from));
+        flaws.extend(flaws_of(&frame.film, &metering).iter().map(String::from));
         let encode = || -> Result<Encoded, export::ExportError> {
             let provenance = Provenance::new(&self.project, &flaws);
             match self.format {

@@ -281,6 +281,34 @@ mod tests {
     }
 
     #[test]
+    fn nothing_to_render_says_what_was_found_and_a_wrong_name_what_was_meant() {
+        let grid = |name: &str| {
+            Grid::from_fn(
+                name,
+                IVec3::ONE,
+                DAffine3::IDENTITY,
+                Border::Background,
+                0.0,
+                |_| 1.0,
+            )
+        };
+        let volume = Arc::new(Volume::from_grids(vec![grid("velocity"), grid("flam")], ""));
+        let mut project = Project::default();
+        let nothing = project.job(&volume).unwrap_err();
+        assert!(
+            matches!(nothing, ProjectError::NothingToRender { .. }),
+            "{nothing}"
+        );
+        assert!(
+            nothing.to_string().contains("\"velocity\", \"flam\""),
+            "{nothing}"
+        );
+        project.set("volume.soot.grid=flame").unwrap();
+        let wrong = project.job(&volume).unwrap_err().to_string();
+        assert!(wrong.contains("did you mean \"flam\"?"), "{wrong}");
+    }
+
+    #[test]
     fn smoke_that_is_physical_keeps_its_values() {
         let grid = |name: &str, value: f32| {
             Grid::from_fn(

@@ -106,10 +106,10 @@ impl Metering {
 }
 
 /// What a film says against itself: that there is nothing to see, or pixels that are no numbers (shown and written
-/// as black).
-pub fn flaws_of(film: &Film) -> Flaws {
+/// as black). `metering` is that of this film.
+pub fn flaws_of(film: &Film, metering: &Metering) -> Flaws {
     let mut flaws = Flaws::default();
-    if Metering::of(film).is_black() {
+    if metering.is_black() {
         flaws.add("the picture is black: nothing in it is hot enough to be seen, or the camera looks elsewhere");
     }
     let is_spoilt = |pixel: &&Pixel| {

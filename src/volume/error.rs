@@ -101,28 +101,6 @@ pub enum VolumeError {
         /// The other file.
         second: PathBuf,
     },
-    /// No grid has a name that says what it is, and none was chosen.
-    #[error(
-        "no field to render: found {found}; expected a grid such as {wanted}, or choose one by volume.soot.grid and volume.temperature.grid"
-    )]
-    NothingUsable {
-        /// The grids there are.
-        found: String,
-        /// Names that would have been taken.
-        wanted: &'static str,
-    },
-    /// A chosen grid does not exist.
-    #[error("no grid named \"{name}\" for {field}: found {found}{hint}")]
-    UnknownGrid {
-        /// The field the grid was chosen for.
-        field: &'static str,
-        /// The name that was asked for.
-        name: String,
-        /// The grids there are.
-        found: String,
-        /// "; did you mean …?" or nothing.
-        hint: String,
-    },
 }
 
 fn line_prefix(line: Option<u64>) -> String {

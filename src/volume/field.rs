@@ -6,8 +6,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Volume, VolumeError};
-
 /// The physical fields that a fire is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -128,49 +126,6 @@ impl FieldMaps {
             .into_iter()
             .filter_map(|kind| Some((kind, self.get(kind)?)))
     }
-
-    /// Checks that every named grid exists and that there is something to render.
-    ///
-    /// # Errors
-    /// [`VolumeError::UnknownGrid`], with the nearest name, and [`VolumeError::NothingUsable`] when neither
-    /// soot, smoke nor flame has a grid.
-    pub fn check(&self, volume: &Volume) -> Result<(), VolumeError> {
-        for (kind, map) in self.iter() {
-            if volume.grid(&map.grid).is_none() {
-                return Err(VolumeError::UnknownGrid {
-                    field: kind.name(),
-                    name: map.grid.clone(),
-                    found: volume.grid_names(),
-                    hint: nearest(&map.grid, volume),
-                });
-            }
-        }
-        let visible = [FieldKind::Soot, FieldKind::Smoke, FieldKind::Flame];
-        if visible.into_iter().any(|kind| self.get(kind).is_some()) {
-            return Ok(());
-        }
-        Err(VolumeError::NothingUsable {
-            found: volume.grid_names(),
-            wanted: "soot, density, flame or temperature",
-        })
-    }
-}
-
-/// "; did you mean …?" for a name that nearly exists.
-fn nearest(name: &str, volume: &Volume) -> String {
-    let lower = name.to_lowercase();
-    volume
-        .grids
-        .iter()
-        .map(|grid| {
-            let likeness = strsim::jaro_winkler(&lower, &grid.name.to_lowercase());
-            (likeness, &grid.name)
-        })
-        .filter(|(likeness, _)| *likeness > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or_else(String::new, |(_, best)| {
-            format!("; did you mean \"{best}\"?")
-        })
 }
 
 /// Who wrote a volume, and so what its numbers mean.

@@ -127,21 +127,4 @@ impl Volume {
     pub fn grid(&self, name: &str) -> Option<&Grid> {
         self.grids.iter().find(|grid| grid.name == name)
     }
-
-    /// The names of the grids, for a message.
-    pub(crate) fn grid_names(&self) -> String {
-        if self.grids.is_empty() {
-            return "no grids".to_owned();
-        }
-        let name = |grid: &Grid| {
-            let empty = if grid.bounds().is_empty() {
-                " (empty)"
-            } else {
-                ""
-            };
-            format!("{}{empty}", grid.name)
-        };
-        let names: Vec<String> = self.grids.iter().map(name).collect();
-        names.join(", ")
-    }
 }
