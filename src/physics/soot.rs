@@ -139,6 +139,16 @@ pub struct SootLaw {
 }
 
 impl SootLaw {
+    /// The law of a model for a fuel's soot. Models that do not look at the fuel give one law for all, so that equal
+    /// laws are equal.
+    pub fn new(model: SootModel, fuel_index: SootIndex) -> Self {
+        let fuel_index = match model {
+            SootModel::Chang => SootIndex::default(),
+            SootModel::DalzellSarofim | SootModel::HottelBroughton => fuel_index,
+        };
+        Self { model, fuel_index }
+    }
+
     /// The index at a wavelength. Hottel and Broughton's law stands in for dispersion, so there it is that of 550 nm.
     pub fn complex_index(self, lambda_nm: f64) -> ComplexIndex {
         match self.model {

@@ -16,6 +16,16 @@ impl VolumeSettings {
             FieldKind::Temperature => &self.temperature,
         }
     }
+
+    /// The overrides of one field, to be changed.
+    pub fn field_mut(&mut self, kind: FieldKind) -> &mut FieldSettings {
+        match kind {
+            FieldKind::Soot => &mut self.soot,
+            FieldKind::Smoke => &mut self.smoke,
+            FieldKind::Flame => &mut self.flame,
+            FieldKind::Temperature => &mut self.temperature,
+        }
+    }
 }
 
 /// The mappings of all fields. Adds what the preset had to assume, and no setting has settled, to the flaws.

@@ -6,14 +6,16 @@ use glam::DVec3;
 
 use super::error::ProjectError;
 use super::fields::field_maps;
+use super::ranges;
 use super::settings::{Project, Up};
 use crate::render::develop::ViewParams;
 use crate::render::{Flaws, Settings, SettingsError};
 use crate::scene::camera::FRAMING_FOV_DEG;
-use crate::scene::{Camera, Flame, FlameParams, Placement, Scene, flame};
+use crate::scene::{Air, Camera, Flame, FlameParams, Placement, Scene, flame};
 use crate::volume::{self, FieldMaps, Producer, UpAxis, Volume};
 
-/// A picture to be made: comparable, so that the window submits only what changed, and cheap to clone.
+/// A picture to be made, cheap to clone. Jobs are equal if they give the same picture, bit for bit: so the window
+/// renders only what changed, and a parameter that no computed effect looks at makes no difference.
 #[derive(Debug, Clone)]
 pub struct Job {
     /// The open volume.
@@ -33,7 +35,7 @@ pub struct Job {
 impl PartialEq for Job {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.volume, &other.volume)
-            && self.flame == other.flame
+            && self.flame.gives_same_light_as(&other.flame)
             && self.camera == other.camera
             && self.settings == other.settings
     }
@@ -94,7 +96,11 @@ impl Project {
             soot_hold: self.soot.hold,
             soot_amount: self.soot.amount,
             smoke_amount: self.smoke.amount,
-            ambient_k: self.air.temperature_k,
+            air: Air {
+                temperature_k: self.air.temperature_k,
+                humidity: self.air.humidity,
+                co2_ppm: self.air.co2_ppm,
+            },
         };
         flame.check(volume)?;
         Ok(Job {
@@ -162,21 +168,35 @@ impl Project {
 
     fn check_ranges(&self) -> Result<(), ProjectError> {
         let numbers = [
-            ("soot.radius_nm", self.soot.radius_nm, [1.0, 100.0]),
-            ("soot.amount", self.soot.amount, [0.0, 1e4]),
-            ("smoke.amount", self.smoke.amount, [0.0, 1e4]),
-            ("air.temperature_k", self.air.temperature_k, [200.0, 400.0]),
+            (
+                "soot.radius_nm",
+                self.soot.radius_nm,
+                ranges::SOOT_RADIUS_NM,
+            ),
+            ("soot.amount", self.soot.amount, ranges::AMOUNT),
+            ("smoke.amount", self.smoke.amount, ranges::AMOUNT),
+            (
+                "air.temperature_k",
+                self.air.temperature_k,
+                ranges::AIR_TEMPERATURE_K,
+            ),
+            ("air.humidity", self.air.humidity, ranges::HUMIDITY),
+            ("air.co2_ppm", self.air.co2_ppm, ranges::CO2_PPM),
             (
                 "camera.fov_deg",
                 self.camera.fov_deg.unwrap_or(FRAMING_FOV_DEG),
-                [0.01, 179.0],
+                ranges::FOV_DEG,
             ),
-            ("view.exposure_ev", self.view.exposure_ev, [-20.0, 20.0]),
-            ("view.adaptation", self.view.adaptation, [0.0, 1.0]),
+            (
+                "view.exposure_ev",
+                self.view.exposure_ev,
+                ranges::EXPOSURE_EV,
+            ),
+            ("view.adaptation", self.view.adaptation, ranges::ADAPTATION),
             (
                 "volume.voxel_size_m",
                 self.volume.voxel_size_m.unwrap_or(1.0),
-                [1e-6, 1e4],
+                ranges::VOXEL_SIZE_M,
             ),
         ];
         match numbers

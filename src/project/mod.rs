@@ -3,17 +3,22 @@
 //! A [`Project`] is plain data, written and read as TOML ([`mod@file`]), changed key by key ([`set`]), and turned
 //! into what the floors below take: [`Project::job`] for the renderer, [`Project::view`] for the picture.
 
+mod darkness;
 mod error;
 mod fields;
 pub mod file;
+mod idle;
 pub mod job;
 pub mod one_or_many;
+pub mod ranges;
 pub mod set;
 pub mod settings;
 
+pub use darkness::{Darkness, Mend};
 pub use error::ProjectError;
+pub use idle::{Control, why_idle};
 pub use job::Job;
 pub use settings::{
     AirSettings, CameraSettings, FieldSettings, FuelSettings, Project, Quality, RenderSettings,
-    SmokeSettings, SootSettings, ViewSettings, VolumeSettings,
+    SmokeSettings, SootSettings, Up, ViewSettings, VolumeSettings,
 };

@@ -210,6 +210,34 @@ mod tests {
     }
 
     #[test]
+    fn keys_tell_the_ranges_that_are_checked() {
+        use super::super::ranges;
+        for (name, [min, max]) in [
+            ("soot.radius_nm", ranges::SOOT_RADIUS_NM),
+            ("soot.amount", ranges::AMOUNT),
+            ("smoke.amount", ranges::AMOUNT),
+            ("air.temperature_k", ranges::AIR_TEMPERATURE_K),
+            ("air.humidity", ranges::HUMIDITY),
+            ("air.co2_ppm", ranges::CO2_PPM),
+            ("camera.fov_deg", ranges::FOV_DEG),
+            ("render.step_voxels", ranges::STEP_VOXELS),
+            ("view.exposure_ev", ranges::EXPOSURE_EV),
+            ("view.adaptation", ranges::ADAPTATION),
+        ] {
+            let expects = find(name).unwrap().expects;
+            assert!(
+                expects.contains(&format!("{min} to {max}")),
+                "{name}: {expects}"
+            );
+            for (value, fits) in [(min, true), (max, true), (max + 1.0, false)] {
+                let mut project = Project::default();
+                project.set(&format!("{name}={value}")).unwrap();
+                assert_eq!(project.check().is_ok(), fits, "{name} = {value}");
+            }
+        }
+    }
+
+    #[test]
     fn a_value_is_toml_where_it_parses_and_text_where_not() {
         let mut project = Project::default();
         project
@@ -247,7 +275,10 @@ mod tests {
         );
         assert_eq!(
             error("render.wavelengths=31"),
-            format!("render.wavelengths is 31: expected {}", KEYS[38].expects)
+            format!(
+                "render.wavelengths is 31: expected {}",
+                find("render.wavelengths").unwrap().expects
+            )
         );
         assert!(error("soot.amount=\"2\"\nsoot.radius_nm=3").contains("expected a number"));
         assert_eq!(project, Project::default());

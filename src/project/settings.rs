@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
-use crate::scene::{Fuel, WavelengthSet};
+use crate::scene::{Air, Fuel, WavelengthSet};
 use crate::volume::Producer;
 
 /// A whole scene file.
@@ -158,12 +158,23 @@ impl Default for SmokeSettings {
 pub struct AirSettings {
     /// Temperature of the air, K, 200 to 400: where the volume has no temperature field.
     pub temperature_k: f64,
+    /// Relative humidity, 0 to 1.
+    pub humidity: f64,
+    /// Carbon dioxide, parts in a million of the air's molecules, 0 to 2000.
+    pub co2_ppm: f64,
 }
 
 impl Default for AirSettings {
     fn default() -> Self {
+        let Air {
+            temperature_k,
+            humidity,
+            co2_ppm,
+        } = Air::default();
         Self {
-            temperature_k: 300.0,
+            temperature_k,
+            humidity,
+            co2_ppm,
         }
     }
 }

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::air::Air;
 use super::fuel::Fuel;
 use super::medium::Medium;
 use super::packing::{self, Fields, PackingError};
 use crate::math::Aabb;
 use crate::physics::soot::{self, Hold, SootLaw, SootModel};
-use crate::volume::{FieldMaps, Limits, UpAxis, Volume};
+use crate::volume::{FieldMap, FieldMaps, Limits, UpAxis, Volume};
 
 /// How the file's axes and lengths lie in the world of metres with z up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,11 +52,33 @@ pub struct FlameParams {
     pub soot_amount: f64,
     /// Multiplies the smoke field, at least 0.
     pub smoke_amount: f64,
-    /// Temperature of the air, K: where the volume has no temperature field.
-    pub ambient_k: f64,
+    /// The air around.
+    pub air: Air,
 }
 
 impl FlameParams {
+    /// Whether a flame of these parameters glows and absorbs exactly as one of the others: a parameter that no law
+    /// looks at makes no difference.
+    pub fn gives_same_light_as(&self, other: &Self) -> bool {
+        self.effect() == other.effect()
+    }
+
+    /// What the parameters come to.
+    fn effect(&self) -> Effect {
+        let (amounts, common) = self.packed_amounts();
+        Effect {
+            key: PackingKey {
+                maps: self.maps.clone(),
+                placement: self.placement,
+                amounts,
+                ambient_k: self.air.temperature_k,
+            },
+            soot: SootLaw::new(self.soot_model, self.fuel.soot_index()),
+            volume_fraction_factor: common
+                * soot::volume_fraction_factor(self.soot_hold, self.soot_radius_nm),
+        }
+    }
+
     /// Whether this volume's fields can be packed side by side.
     ///
     /// # Errors
@@ -66,7 +89,7 @@ impl FlameParams {
             volume,
             maps: &self.maps,
             amounts,
-            ambient_k: self.ambient_k,
+            ambient_k: self.air.temperature_k,
         }
         .check(&Limits::default())
     }
@@ -74,11 +97,14 @@ impl FlameParams {
     /// Weights of soot and smoke in the packed medium, and the factor that is left to the laws. With soot alone its
     /// amount is such a factor, so that it can change without packing.
     fn packed_amounts(&self) -> ([f64; 2], f64) {
-        let two_fields = self.maps.smoke.is_some() && self.smoke_amount > 0.0;
-        if two_fields || self.soot_amount <= 0.0 {
-            ([self.soot_amount, self.smoke_amount], 1.0)
+        // An amount of what is not there makes no difference.
+        let amount = |map: &Option<FieldMap>, amount: f64| if map.is_some() { amount } else { 0.0 };
+        let soot = amount(&self.maps.soot, self.soot_amount);
+        let smoke = amount(&self.maps.smoke, self.smoke_amount);
+        if smoke > 0.0 || soot <= 0.0 {
+            ([soot, smoke], 1.0)
         } else {
-            ([1.0, 0.0], self.soot_amount)
+            ([1.0, 0.0], soot)
         }
     }
 }
@@ -93,15 +119,21 @@ struct PackingKey {
     ambient_k: f64,
 }
 
+/// Parameters as the laws see them: what must be packed, and what multiplies it.
+#[derive(Debug, Clone, PartialEq)]
+struct Effect {
+    key: PackingKey,
+    soot: SootLaw,
+    /// Multiplies the medium's volume fraction: amount and radius.
+    volume_fraction_factor: f64,
+}
+
 /// A volume made into a medium with optics. Cheap to clone.
 #[derive(Debug, Clone)]
 pub struct Flame {
     volume: Arc<Volume>,
-    key: PackingKey,
+    effect: Effect,
     medium: Arc<Medium>,
-    soot: SootLaw,
-    /// Multiplies the medium's volume fraction: amount and radius.
-    volume_fraction_factor: f64,
 }
 
 impl Flame {
@@ -109,22 +141,16 @@ impl Flame {
     ///
     /// Fields that [`FlameParams::check`] refuses are not packed: the medium is clear.
     pub fn new(volume: &Arc<Volume>, params: &FlameParams, before: Option<&Self>) -> Self {
-        let radius_factor = soot::volume_fraction_factor(params.soot_hold, params.soot_radius_nm);
-        let (amounts, common) = params.packed_amounts();
-        let key = PackingKey {
-            maps: params.maps.clone(),
-            placement: params.placement,
-            amounts,
-            ambient_k: params.ambient_k,
-        };
-        let reusable =
-            before.filter(|before| Arc::ptr_eq(&before.volume, volume) && before.key == key);
+        let effect = params.effect();
+        let key = &effect.key;
+        let reusable = before
+            .filter(|before| Arc::ptr_eq(&before.volume, volume) && before.effect.key == *key);
         let medium = reusable.map_or_else(
             || {
                 let fields = Fields {
                     volume,
                     maps: &key.maps,
-                    amounts,
+                    amounts: key.amounts,
                     ambient_k: key.ambient_k,
                 };
                 let frame = params.placement.world_from_file();
@@ -138,13 +164,8 @@ impl Flame {
         );
         Self {
             volume: Arc::clone(volume),
-            key,
+            effect,
             medium,
-            soot: SootLaw {
-                model: params.soot_model,
-                fuel_index: params.fuel.soot_index(),
-            },
-            volume_fraction_factor: common * radius_factor,
         }
     }
 
@@ -160,13 +181,14 @@ impl Flame {
 
     /// How this flame's soot absorbs.
     pub fn soot(&self) -> SootLaw {
-        self.soot
+        self.effect.soot
     }
 
     /// Absorption coefficient at a wavelength for a volume fraction of the *medium*, 1/m for each unit: the
     /// soot's law times amount and radius.
     pub fn absorption_per_sample(&self, lambda_nm: f64) -> f64 {
-        self.volume_fraction_factor * self.soot.absorption_per_volume_fraction(lambda_nm)
+        self.effect.volume_fraction_factor
+            * self.effect.soot.absorption_per_volume_fraction(lambda_nm)
     }
 }
 

@@ -4,6 +4,7 @@
 //! [`Medium`] (fields in physical units, packed for the march) and optics (laws of the fuel's soot). Grids are
 //! only touched when a field's mapping changes; fuel, radius and amount only change the laws.
 
+mod air;
 pub mod camera;
 mod fit;
 pub mod flame;
@@ -13,6 +14,7 @@ mod packing;
 pub mod quadrature;
 mod source;
 
+pub use air::Air;
 pub use camera::Camera;
 pub use flame::{Flame, FlameParams, Placement};
 pub use fuel::Fuel;

@@ -36,7 +36,7 @@ pub use lattice::{BRICK_EDGE, BRICK_LEN, IndexBox, brick_of};
 pub use limits::Limits;
 pub use load::{open, open_or_built_in};
 pub use naming::figures;
-pub use preset::{mapping, preset};
+pub use preset::{GLOW_K, PEAK_K, mapping, preset};
 pub use recognise::recognise;
 pub use summary::{GridSummary, MappedField, Summary, summarise};
 

@@ -32,11 +32,11 @@ const AMBIENT_K: f64 = 300.0;
 /// Temperature of the coolest burning gas of an EmberGen flame, K.
 const LUMINOUS_K: f64 = 1300.0;
 /// Temperature assumed for the hottest voxel of a field without units, K.
-const PEAK_K: f64 = 2000.0;
+pub const PEAK_K: f64 = 2000.0;
 /// Above this, artist scales included, no solver heat is meant, K.
 const SOLVER_CEILING_K: f64 = 2500.0;
 /// Soot glows visibly above this temperature, K.
-const GLOW_K: f64 = 700.0;
+pub const GLOW_K: f64 = 700.0;
 /// Hottest temperature taken from a file in kelvin: above any flame, K.
 const FLAME_CEILING_K: f64 = 6000.0;
 /// Densest soot taken from a file in volume fractions: a hundred times a sooting flame.

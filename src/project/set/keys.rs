@@ -130,6 +130,16 @@ pub const KEYS: &[Key] = &[
         "temperature where the volume has none",
     ),
     key(
+        "air.humidity",
+        "a number, 0 to 1",
+        "relative humidity; bends light, which shows only before a backdrop",
+    ),
+    key(
+        "air.co2_ppm",
+        "a number of ppm, 0 to 2000",
+        "carbon dioxide; bends light, which shows only before a backdrop",
+    ),
+    key(
         "camera.eye",
         POINT,
         "position of the eye; framed if not set",

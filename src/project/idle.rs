@@ -1,0 +1,109 @@
+//! Controls that cannot change a picture as things are, and why: told in words beside them.
+//!
+//! Whether one can is not decided by rules of its own, but by asking: the job with another value of that control is
+//! compared with the job itself.
+
+use super::job::Job;
+use crate::physics::soot::SootModel;
+use crate::scene::{FlameParams, Fuel};
+
+/// A control whose effect depends on the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Control {
+    /// `fuel.name`
+    Fuel,
+    /// `soot.radius_nm`
+    SootRadius,
+    /// `soot.amount`
+    SootAmount,
+    /// `smoke.amount`
+    SmokeAmount,
+    /// `air.humidity`
+    Humidity,
+    /// `air.co2_ppm`
+    Co2,
+}
+
+/// Why a control cannot change this job's picture; `None` if it can.
+pub fn why_idle(job: &Job, control: Control) -> Option<String> {
+    let flame = &job.flame;
+    let no_soot = flame.soot_amount <= 0.0 && flame.smoke_amount <= 0.0;
+    let words = match control {
+        Control::Fuel if flame.soot_model == SootModel::Chang => {
+            "Chang and Charalampopoulos measured one soot for all fuels: choose another soot model to tell them apart"
+        }
+        Control::Fuel | Control::SootRadius if no_soot => "there is no soot",
+        Control::Fuel => "the soot of these fuels absorbs alike under this soot model",
+        Control::SootRadius => {
+            "with its volume kept, soot of any radius absorbs and glows alike; scattering, which would tell, is not \
+             computed"
+        }
+        Control::SootAmount => "this volume has no soot field",
+        Control::SmokeAmount => "this volume has no smoke field: choose a grid for it under Volume",
+        Control::Humidity => "humidity acts through refraction; nothing behind the fire shows it",
+        Control::Co2 => "carbon dioxide acts through refraction; nothing behind the fire shows it",
+    };
+    let same = |change: &dyn Fn(&mut FlameParams)| {
+        let mut other = flame.clone();
+        change(&mut other);
+        flame.gives_same_light_as(&other)
+    };
+    let idle = match control {
+        Control::Fuel => Fuel::ALL.into_iter().all(|fuel| same(&|f| f.fuel = fuel)),
+        Control::SootRadius => no_soot || same(&|f| f.soot_radius_nm *= 1.5),
+        Control::SootAmount => same(&|f| f.soot_amount += 1.0),
+        Control::SmokeAmount => same(&|f| f.smoke_amount += 1.0),
+        Control::Humidity => same(&|f| f.air.humidity = 1.0 - f.air.humidity),
+        Control::Co2 => same(&|f| f.air.co2_ppm += 100.0),
+    };
+    idle.then(|| words.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use std::sync::Arc;
+
+    use super::super::Project;
+    use super::*;
+    use crate::volume::procedural;
+
+    fn idle(assignments: &[&str], control: Control) -> Option<String> {
+        let mut project = Project::default();
+        project.set_all(assignments.iter().copied()).unwrap();
+        let job = project.job(&Arc::new(procedural::torch())).unwrap();
+        why_idle(&job, control)
+    }
+
+    #[test]
+    fn a_fuel_acts_through_models_that_look_at_it() {
+        assert!(idle(&[], Control::Fuel).unwrap().contains("soot model"));
+        for model in ["dalzell-sarofim", "hottel-broughton"] {
+            let set = format!("soot.model={model}");
+            assert_eq!(idle(&[&set], Control::Fuel), None, "{model}");
+        }
+    }
+
+    #[test]
+    fn a_radius_acts_if_the_number_of_particles_is_kept() {
+        assert_eq!(idle(&[], Control::SootRadius), None);
+        assert!(idle(&["soot.hold=volume"], Control::SootRadius).is_some());
+        assert_eq!(
+            idle(&["soot.amount=0", "smoke.amount=0"], Control::SootRadius).as_deref(),
+            Some("there is no soot")
+        );
+    }
+
+    #[test]
+    fn amounts_act_on_fields_that_are_there_and_air_on_nothing_yet() {
+        assert_eq!(idle(&[], Control::SootAmount), None);
+        assert!(idle(&[], Control::SmokeAmount).is_some());
+        let smoky = ["volume.smoke.grid=temperature", "volume.smoke.scale=1e-9"];
+        assert_eq!(idle(&smoky, Control::SmokeAmount), None);
+        let sootless = [smoky[0], smoky[1], "volume.soot.grid="];
+        assert!(idle(&sootless, Control::SootAmount).is_some());
+        for control in [Control::Humidity, Control::Co2] {
+            assert!(idle(&[], control).unwrap().contains("refraction"));
+        }
+    }
+}
