@@ -11,15 +11,19 @@ use crate::volume::{FieldKind, Recognised, Volume, recognise};
 
 /// Steps that can be taken back.
 const MOST_UNDO: usize = 200;
+/// Volumes that are kept in memory for the sake of undo, beside the open one: they may be large.
+const MOST_UNDO_VOLUMES: usize = 1;
 
 /// A project and its open volume.
 #[derive(Debug)]
 pub struct Document {
     /// All that a person can set. Panels change it freely; [`Document::remember`] makes the change undoable.
     pub project: Project,
-    open: Option<OpenVolume>,
-    past: Vec<Project>,
-    future: Vec<Project>,
+    /// Size of the picture in pixels; `None`: as large as the canvas. Not a part of the scene, so no step of undo.
+    pub fixed_size: Option<[u32; 2]>,
+    open: Option<Arc<OpenVolume>>,
+    past: Vec<Step>,
+    future: Vec<Step>,
     /// Whether the newest undo step still grows with the slider that is held.
     gesture: bool,
     /// The last job that could be rendered.
@@ -33,6 +37,13 @@ pub struct Document {
 struct OpenVolume {
     volume: Arc<Volume>,
     recognised: Recognised,
+}
+
+/// What an undo brings back. An opening is a step as well: a file dropped by mistake costs nothing.
+#[derive(Debug, Clone)]
+struct Step {
+    project: Project,
+    open: Option<Arc<OpenVolume>>,
 }
 
 /// One physical field of the open volume, for a person to check.
@@ -53,6 +64,7 @@ impl Document {
     pub fn new(project: Project) -> Self {
         Self {
             project,
+            fixed_size: None,
             open: None,
             past: Vec::new(),
             future: Vec::new(),
@@ -73,7 +85,7 @@ impl Document {
         self.open.as_ref().map(|open| &open.recognised)
     }
 
-    /// Shows a volume with the settings as they are: the one that the project itself names.
+    /// Shows a volume with the settings as they are: the one that the project itself names. No undo reaches behind it.
     ///
     /// # Errors
     /// [`ProjectError`]: it comes from files that cannot be rendered so. Everything stays as it was.
@@ -82,12 +94,16 @@ impl Document {
         if !volume.sources.is_empty() {
             self.project.job(&volume)?;
         }
-        self.begin(volume);
+        self.put(volume);
+        self.past.clear();
+        self.future.clear();
+        self.gesture = false;
         Ok(())
     }
 
     /// Shows another volume than the project's. What belonged to the old file — its fields' mapping, where the
     /// camera stood — goes back to what is chosen from the file; fuel, soot, quality and view stay.
+    /// An undo brings the old one back.
     ///
     /// # Errors
     /// [`ProjectError`]: there is nothing to render in it. Everything stays as it was.
@@ -99,8 +115,11 @@ impl Document {
         };
         project.camera = CameraSettings::default();
         project.job(&volume)?;
+        let before = self.step();
         self.project = project;
-        self.begin(volume);
+        self.put(volume);
+        self.gesture = false;
+        self.push(before);
         Ok(())
     }
 
@@ -110,28 +129,53 @@ impl Document {
     /// [`ProjectError`]: it cannot be rendered with these settings. Everything stays as it was.
     pub fn complete(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
         self.project.job(&volume)?;
-        // An undo must not take a file away that stays open.
-        let steps = self.past.iter_mut().chain(&mut self.future);
-        for project in steps.chain([&mut self.project]) {
-            project.volume.path.clone_from(&volume.sources);
-        }
+        let before = self.step();
+        self.project.volume.path.clone_from(&volume.sources);
         self.put(volume);
-        Ok(())
-    }
-
-    fn begin(&mut self, volume: Arc<Volume>) {
-        self.put(volume);
-        // Undo does not reach behind an opening: an older project names grids of a volume that is gone.
-        self.past.clear();
-        self.future.clear();
         self.gesture = false;
+        self.push(before);
+        Ok(())
     }
 
     fn put(&mut self, volume: Arc<Volume>) {
         let recognised = recognise(&volume);
-        self.open = Some(OpenVolume { volume, recognised });
-        self.job = None;
-        self.asked = None;
+        self.restore(Some(Arc::new(OpenVolume { volume, recognised })));
+    }
+
+    fn restore(&mut self, open: Option<Arc<OpenVolume>>) {
+        if !is_same(self.open.as_ref(), open.as_ref()) {
+            self.open = open;
+            self.job = None;
+            self.asked = None;
+        }
+    }
+
+    fn step(&self) -> Step {
+        Step {
+            project: self.project.clone(),
+            open: self.open.clone(),
+        }
+    }
+
+    /// Makes `before` what the next undo brings back.
+    fn push(&mut self, before: Step) {
+        self.past.push(before);
+        self.future.clear();
+        let surplus = self.past.len().saturating_sub(MOST_UNDO);
+        self.past.drain(..surplus);
+        // Going back from here, every other volume than the one before it counts.
+        let mut newer = &self.open;
+        let mut volumes = 0;
+        let mut keep = 0;
+        for step in self.past.iter().rev() {
+            volumes += usize::from(!is_same(newer.as_ref(), step.open.as_ref()));
+            if volumes > MOST_UNDO_VOLUMES {
+                break;
+            }
+            newer = &step.open;
+            keep += 1;
+        }
+        self.past.drain(..self.past.len() - keep);
     }
 
     /// Whether one more file may complete the open volume: it came from files and has a single field.
@@ -158,6 +202,7 @@ impl Document {
     /// What to render for a canvas of this many pixels: the last job that was valid, if the project is not.
     /// `None` while there is no volume.
     pub fn job(&mut self, canvas: [u32; 2]) -> Option<&Job> {
+        let canvas = self.fixed_size.unwrap_or(canvas);
         let volume = &self.open.as_ref()?.volume;
         let asked = self.asked.as_ref();
         if asked.is_some_and(|(project, size)| *project == self.project && *size == canvas) {
@@ -179,6 +224,11 @@ impl Document {
     /// The last valid job.
     pub fn last_job(&self) -> Option<&Job> {
         self.job.as_ref()
+    }
+
+    /// The project to be changed, beside the last valid job.
+    pub fn parts(&mut self) -> (&mut Project, Option<&Job>) {
+        (&mut self.project, self.job.as_ref())
     }
 
     /// Why the project as it stands cannot be rendered, in words.
@@ -210,9 +260,11 @@ impl Document {
     pub fn remember(&mut self, before: Project, held: bool) {
         if self.project != before {
             if !self.gesture {
-                self.past.push(before);
-                let surplus = self.past.len().saturating_sub(MOST_UNDO);
-                self.past.drain(..surplus);
+                let open = self.open.clone();
+                self.push(Step {
+                    project: before,
+                    open,
+                });
             }
             self.future.clear();
             self.gesture = true;
@@ -223,16 +275,43 @@ impl Document {
     /// Takes the last step back.
     pub fn undo(&mut self) {
         if let Some(before) = self.past.pop() {
-            self.future
-                .push(std::mem::replace(&mut self.project, before));
+            let after = self.take(before);
+            self.future.push(after);
         }
     }
 
     /// Takes the last undo back.
     pub fn redo(&mut self) {
         if let Some(after) = self.future.pop() {
-            self.past.push(std::mem::replace(&mut self.project, after));
+            let before = self.take(after);
+            self.past.push(before);
         }
+    }
+
+    /// Whether there is something to take back.
+    pub fn can_undo(&self) -> bool {
+        !self.past.is_empty()
+    }
+
+    /// Whether there is an undo to take back.
+    pub fn can_redo(&self) -> bool {
+        !self.future.is_empty()
+    }
+
+    /// Goes to a step; gives the one that was left.
+    fn take(&mut self, step: Step) -> Step {
+        let left = self.step();
+        self.project = step.project;
+        self.restore(step.open);
+        self.gesture = false;
+        left
+    }
+}
+
+fn is_same(one: Option<&Arc<OpenVolume>>, other: Option<&Arc<OpenVolume>>) -> bool {
+    match (one, other) {
+        (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+        (one, other) => one.is_none() && other.is_none(),
     }
 }
 
@@ -264,6 +343,37 @@ mod tests {
         set(&mut document, 5.0, false);
         document.redo();
         assert_eq!(document.project.soot.radius_nm, 5.0);
+    }
+
+    #[test]
+    fn an_opening_can_be_taken_back_but_memory_is_bounded() {
+        let torch = || Arc::new(crate::volume::procedural::torch());
+        let [first, second, third] = [torch(), torch(), torch()];
+        let mut document = Document::new(Project::default());
+        let shown = |document: &Document, volume: &Arc<Volume>| {
+            document
+                .volume()
+                .is_some_and(|open| Arc::ptr_eq(open, volume))
+        };
+        assert!(document.open(Arc::clone(&first)).is_ok() && !document.can_undo());
+        set(&mut document, 30.0, false);
+        assert!(document.replace(Arc::clone(&second)).is_ok());
+        set(&mut document, 50.0, false);
+        document.undo();
+        document.undo();
+        assert!(shown(&document, &first) && document.project.soot.radius_nm == 30.0);
+        document.undo();
+        assert!(!document.can_undo());
+        for _ in 0..3 {
+            document.redo();
+        }
+        assert!(shown(&document, &second) && document.project.soot.radius_nm == 50.0);
+
+        assert!(document.replace(Arc::clone(&third)).is_ok());
+        for _ in 0..9 {
+            document.undo();
+        }
+        assert!(shown(&document, &second), "the first one is let go");
     }
 
     #[test]

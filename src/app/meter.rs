@@ -28,6 +28,10 @@ pub(super) struct Meter {
     /// The film that was looked through last: its job, and how many passes were whole.
     seen: Option<(Generation, usize)>,
     flaws: Flaws,
+    /// Whether nothing on that film could be seen at any exposure.
+    black: bool,
+    /// Y of its brightest pixel.
+    peak_y: f64,
 }
 
 impl Meter {
@@ -44,7 +48,9 @@ impl Meter {
         let done = picture.progress.done;
         if self.seen != Some((generation, done)) {
             self.seen = Some((generation, done));
-            self.flaws = flaws_of(picture.film(), &Metering::of(picture.film()));
+            self.flaws = flaws_of(picture.film());
+            self.black = Metering::of(picture.film()).is_black();
+            self.peak_y = peak_y(picture.film());
         }
         let mut whole = picture.progress.passes.iter().take(done);
         let full = whole.any(|pass| pass.stride == 1);
@@ -65,7 +71,7 @@ impl Meter {
         }
         let visible = self
             .metering
-            .is_some_and(|metering| peak_y(picture.film()) * metering.exposure > INVISIBLE);
+            .is_some_and(|metering| self.peak_y * metering.exposure > INVISIBLE);
         // What was measured on an older job stays: it is what the sliders' effect is judged by.
         self.coarse = None;
         if !visible {
@@ -77,6 +83,16 @@ impl Meter {
     /// What is wrong with the picture that was followed last.
     pub(super) fn flaws(&self) -> &Flaws {
         &self.flaws
+    }
+
+    /// Whether the film that was followed last is black at any exposure.
+    pub(super) fn is_black(&self) -> bool {
+        self.black
+    }
+
+    /// Whether the film that was followed last could be seen, but not with this view.
+    pub(super) fn is_underexposed(&self, view: &View) -> bool {
+        self.seen.is_some() && !self.black && self.peak_y * view.exposure < INVISIBLE
     }
 
     /// Measures a film. A black one tells nothing: what was measured before stays.
@@ -134,14 +150,13 @@ mod tests {
     }
 
     #[test]
-    fn a_black_film_and_spoilt_pixels_are_told() {
+    fn spoilt_pixels_are_told() {
         let words = |pixels| {
             let film = film(pixels);
-            let flaws = flaws_of(&film, &Metering::of(&film));
+            let flaws = flaws_of(&film);
             flaws.iter().collect::<Vec<_>>().join("; ")
         };
         assert_eq!(words([[1.0; 3], [0.0; 3]]), "");
-        assert!(words([[0.0; 3]; 2]).starts_with("the picture is black"));
         let spoilt = words([[1.0; 3], [f32::NAN, 1.0, 1.0]]);
         assert!(spoilt.starts_with("1 pixels are no numbers"), "{spoilt}");
     }

@@ -9,6 +9,7 @@ mod document;
 mod files;
 mod meter;
 mod panels;
+mod recent;
 mod start;
 mod theme;
 
@@ -26,6 +27,7 @@ use self::canvas::Canvas;
 use self::files::{Loader, Outcome, Request};
 use self::meter::Meter;
 use self::panels::{Command, Panels};
+use self::recent::Recent;
 use crate::colour::display::View;
 use crate::engine::{Engine, Generation, Picture};
 use crate::project::{CameraSettings, Job, Project, ProjectError, VolumeSettings};
@@ -47,6 +49,7 @@ pub struct App {
     submitted: Option<Submitted>,
     loader: Loader,
     panels: Panels,
+    recent: Recent,
     /// What went wrong last, until it is dismissed.
     notice: Option<String>,
     title: String,
@@ -88,6 +91,7 @@ impl App {
             submitted: None,
             loader,
             panels: Panels::default(),
+            recent: Recent::load(creation.storage),
             notice: None,
             title: String::new(),
         })
@@ -200,7 +204,12 @@ impl App {
         let name = |path: &PathBuf| path.display().to_string();
         let names = volume.sources.iter().map(name).collect::<Vec<_>>();
         match way(&mut self.document, volume) {
-            Ok(()) => self.loader.forget_older(),
+            Ok(()) => {
+                self.loader.forget_older();
+                if let Some(volume) = self.document.volume() {
+                    self.recent.add(&volume.sources);
+                }
+            }
             Err(error) => self.refuse(&format!("{}: {error}", names.join(", ")), true),
         }
     }
@@ -226,19 +235,29 @@ impl App {
         let Some(job) = self.document.job(size) else {
             return;
         };
-        if self
-            .submitted
-            .as_ref()
-            .is_none_or(|submitted| submitted.job != *job)
-        {
-            let job = job.clone();
-            let generation = self.engine.submit(job.clone());
-            self.submitted = Some(Submitted {
-                job,
-                generation,
-                at: Instant::now(),
-            });
+        match &mut self.submitted {
+            // The same picture may be meant by other numbers: humidity, where nothing shows it.
+            Some(submitted) if submitted.job == *job => {
+                if submitted.job.flame != job.flame {
+                    submitted.job = job.clone();
+                }
+            }
+            _ => {
+                let generation = self.engine.submit(job.clone());
+                self.submitted = Some(Submitted {
+                    job: job.clone(),
+                    generation,
+                    at: Instant::now(),
+                });
+            }
         }
+    }
+
+    /// A change of its own: one step of undo.
+    fn edit(&mut self, change: impl FnOnce(&mut Project)) {
+        let before = self.document.project.clone();
+        change(&mut self.document.project);
+        self.document.remember(before, false);
     }
 
     fn obey(&mut self, commands: Vec<Command>) {
@@ -246,7 +265,15 @@ impl App {
             match command {
                 Command::Ask => self.loader.ask(),
                 Command::Open(paths) => self.open(paths),
-                Command::Meter => self.meter.measure(self.picture.film()),
+                Command::BuiltIn => self.loader.begin(Request::Files(Vec::new())),
+                Command::Undo => self.document.undo(),
+                Command::Redo => self.document.redo(),
+                Command::FrameAll => self.frame_all(),
+                Command::Mend(mend) => self.edit(|project| mend.apply(project)),
+                Command::AutoExposure => {
+                    self.meter.measure(self.picture.film());
+                    self.edit(|project| project.view.exposure_ev = 0.0);
+                }
                 Command::Dismiss => self.notice = None,
             }
         }
@@ -289,6 +316,13 @@ impl App {
         if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::O))) {
             self.loader.ask();
         }
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::N)) {
+            self.panels.hidden = !self.panels.hidden;
+        }
+    }
+
+    fn frame_all(&mut self) {
+        self.edit(|project| project.camera = CameraSettings::default());
     }
 
     fn retitle(&mut self, ctx: &egui::Context) {
@@ -300,7 +334,25 @@ impl App {
     }
 }
 
+/// Whether what changes belongs to the same step of undo: something is held, or was clicked so shortly before that a
+/// second click makes it a double one.
+fn is_held(ctx: &egui::Context) -> bool {
+    let double_click_s = ctx.options(|options| options.input_options.max_double_click_delay);
+    ctx.input(|input| {
+        input.pointer.any_down()
+            || f64::from(input.pointer.time_since_last_click()) < double_click_s
+    })
+}
+
 impl eframe::App for App {
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.recent.save(storage);
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         self.receive();
         self.drain();
@@ -320,15 +372,15 @@ impl eframe::App for App {
         panels::status(ui, self);
         let flaws: Vec<String> = self.flaws().into_iter().map(String::from).collect();
         self.panels
-            .show(ui, &mut self.document, &flaws, &mut commands);
-        self.document
-            .remember(before, ctx.input(|input| input.pointer.any_down()));
+            .show(ui, &mut self.document, &self.recent, &flaws, &mut commands);
+        self.document.remember(before, is_held(&ctx));
 
         // The picture has all the space that is left.
+        let canvas = ui.available_rect_before_wrap();
         let view = self.view();
         let size = self.canvas.show(ui, &self.picture, &view);
         self.canvas_size = Some(size);
-        panels::overlay(ui, self, &mut commands);
+        panels::overlay(ui, self, canvas, &mut commands);
 
         self.obey(commands);
         self.follow();

@@ -10,6 +10,8 @@ const WELL: Color32 = Color32::from_gray(18);
 const TEXT: Color32 = Color32::from_gray(205);
 /// What is selected, and the part of a rail left of its handle.
 const SELECTED: Color32 = Color32::from_gray(92);
+/// What is so, and explains why a control does nothing.
+pub(super) const IDLE: Color32 = Color32::from_gray(150);
 /// What is not as it should be.
 pub(super) const WARNING: Color32 = Color32::from_rgb(226, 178, 104);
 /// What went wrong.

@@ -8,7 +8,7 @@ use super::stats::{Seconds, Stats};
 use super::{load, output};
 use crate::colour::display::BakedView;
 use crate::export::{self, Encoded, Provenance};
-use crate::project::Job;
+use crate::project::{Darkness, Job};
 use crate::render::develop::{Metering, flaws_of};
 use crate::render::{Cancel, Flaws, Frame, render_still};
 use crate::scene::Scene;
@@ -80,7 +80,10 @@ impl Render {
         let metering = Metering::of(&frame.film);
         let mut flaws = job.flaws.clone();
         flaws.extend(frame.flaws.iter().map(String::from));
-        flaws.extend(flaws_of(&frame.film, &metering).iter().map(String::from));
+        flaws.extend(flaws_of(&frame.film).iter().map(String::from));
+        if metering.is_black() {
+            flaws.add(Darkness::of(job).words);
+        }
         let encode = || -> Result<Encoded, export::ExportError> {
             let provenance = Provenance::new(&self.project, &flaws);
             match self.format {

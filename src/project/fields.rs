@@ -28,7 +28,7 @@ impl VolumeSettings {
     }
 }
 
-/// The mappings of all fields. Adds what the preset had to assume, and no setting has settled, to the flaws.
+/// The mappings of all fields: as set, and as they would be without the numbers that a person set. Adds what the preset had to assume, and no setting has settled, to the flaws.
 ///
 /// # Errors
 /// A named grid does not exist, a number is out of range, or nothing is left to render.
@@ -38,7 +38,7 @@ pub(super) fn field_maps(
     producer: Producer,
     preset: &Preset,
     flaws: &mut Flaws,
-) -> Result<FieldMaps, ProjectError> {
+) -> Result<(FieldMaps, FieldMaps), ProjectError> {
     for assumption in &preset.assumptions {
         let settled = match assumption.about {
             About::Field(kind) => !settings.field(kind).is_unset(),
@@ -51,15 +51,25 @@ pub(super) fn field_maps(
     let mut merge = |kind: FieldKind, base: Option<&FieldMap>| {
         merged(volume, producer, kind, settings.field(kind), base, flaws)
     };
-    let soot = merge(FieldKind::Soot, preset.maps.soot.as_ref())?;
+    let (soot, soot_proposed) = merge(FieldKind::Soot, preset.maps.soot.as_ref())?.unzip();
     // A grid that a person made the soot is not smoke as well, unless she says so.
     let taken = |smoke: &&FieldMap| soot.as_ref().is_some_and(|soot| soot.grid == smoke.grid);
     let smoke = preset.maps.smoke.as_ref().filter(|smoke| !taken(smoke));
+    let (smoke, smoke_proposed) = merge(FieldKind::Smoke, smoke)?.unzip();
+    let (flame, flame_proposed) = merge(FieldKind::Flame, preset.maps.flame.as_ref())?.unzip();
+    let (temperature, temperature_proposed) =
+        merge(FieldKind::Temperature, preset.maps.temperature.as_ref())?.unzip();
     let maps = FieldMaps {
-        smoke: merge(FieldKind::Smoke, smoke)?,
-        flame: merge(FieldKind::Flame, preset.maps.flame.as_ref())?,
-        temperature: merge(FieldKind::Temperature, preset.maps.temperature.as_ref())?,
         soot,
+        smoke,
+        flame,
+        temperature,
+    };
+    let proposed = FieldMaps {
+        soot: soot_proposed,
+        smoke: smoke_proposed,
+        flame: flame_proposed,
+        temperature: temperature_proposed,
     };
     // What was repaired in a grid that no field uses is no flaw of the picture.
     let unused = |note: &&String| {
@@ -75,10 +85,10 @@ pub(super) fn field_maps(
             available: grid_names(volume),
         });
     }
-    Ok(maps)
+    Ok((maps, proposed))
 }
 
-/// One field: the preset's mapping, or that of the grid a person chose, with the numbers she set.
+/// One field: the preset's mapping, or that of the grid a person chose, with the numbers she set and without them.
 fn merged(
     volume: &Volume,
     producer: Producer,
@@ -86,7 +96,7 @@ fn merged(
     set: &FieldSettings,
     base: Option<&FieldMap>,
     flaws: &mut Flaws,
-) -> Result<Option<FieldMap>, ProjectError> {
+) -> Result<Option<(FieldMap, FieldMap)>, ProjectError> {
     let key = |part: &str| format!("volume.{}.{part}", kind.name());
     let mut map = match (set.grid.as_deref(), base) {
         (Some(""), _) | (None, None) => return Ok(None),
@@ -111,6 +121,7 @@ fn merged(
             map
         }
     };
+    let proposed = map.clone();
     for (target, value) in [
         (&mut map.scale, set.scale),
         (&mut map.offset, set.offset),
@@ -152,7 +163,7 @@ fn merged(
             max: map.max,
         });
     }
-    Ok(Some(map))
+    Ok(Some((map, proposed)))
 }
 
 /// Adds a flaw where the numbers that a person set reach beyond the mapping's own bounds.

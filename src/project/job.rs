@@ -30,6 +30,10 @@ pub struct Job {
     pub flaws: Flaws,
     /// Whose conventions the fields follow here.
     pub producer: Producer,
+    /// How the fields would be made with the same grids, had no number been set by hand.
+    pub proposed: FieldMaps,
+    /// Edge of a voxel that was not set by hand, m.
+    pub proposed_voxel_m: f64,
 }
 
 impl PartialEq for Job {
@@ -70,16 +74,18 @@ impl Project {
         let preset = volume::preset(producer, volume);
         let mut flaws = Flaws::default();
         let fields = &self.volume;
-        let maps = field_maps(fields, volume, producer, &preset, &mut flaws)?;
+        let (maps, proposed) = field_maps(fields, volume, producer, &preset, &mut flaws)?;
         let up = match fields.up {
             Up::Auto => preset.up,
             Up::Y => UpAxis::Y,
             Up::Z => UpAxis::Z,
         };
+        let file_voxel = file_voxel_size(volume, &maps);
+        let proposed_voxel_m = preset.voxel_size_m.unwrap_or(file_voxel);
         let metres_per_unit = fields
             .voxel_size_m
             .or(preset.voxel_size_m)
-            .map_or(1.0, |wanted| wanted / file_voxel_size(volume, &maps));
+            .map_or(1.0, |wanted| wanted / file_voxel);
         let placement = Placement {
             up,
             metres_per_unit,
@@ -110,6 +116,8 @@ impl Project {
             settings,
             flaws,
             producer,
+            proposed,
+            proposed_voxel_m,
         })
     }
 

@@ -105,13 +105,9 @@ impl Metering {
     }
 }
 
-/// What a film says against itself: that there is nothing to see, or pixels that are no numbers (shown and written
-/// as black). `metering` is that of this film.
-pub fn flaws_of(film: &Film, metering: &Metering) -> Flaws {
+/// What a film says against itself: pixels that are no numbers (shown and written as black).
+pub fn flaws_of(film: &Film) -> Flaws {
     let mut flaws = Flaws::default();
-    if metering.is_black() {
-        flaws.add("the picture is black: nothing in it is hot enough to be seen, or the camera looks elsewhere");
-    }
     let is_spoilt = |pixel: &&Pixel| {
         pixel
             .xyz

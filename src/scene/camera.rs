@@ -46,6 +46,20 @@ pub const FRAMING_FOV_DEG: f64 = 32.0;
 /// How much wider than the box a framing is, so that the flame does not touch the picture's edge.
 const FRAMING_MARGIN: f64 = 1.12;
 
+/// Half the height of the frame that focal lengths are given for, mm: still film of 36 × 24 mm.
+const HALF_FRAME_MM: f64 = 12.0;
+
+/// Focal length in mm of a lens that sees the vertical field of view (degrees, 0 < fov < 180) on a frame of
+/// 36 × 24 mm.
+pub fn focal_length_mm(fov_deg: f64) -> f64 {
+    HALF_FRAME_MM / (0.5 * fov_deg).to_radians().tan()
+}
+
+/// Vertical field of view in degrees of a lens of this focal length (mm, above 0) on a frame of 36 × 24 mm.
+pub fn fov_deg(focal_length_mm: f64) -> f64 {
+    2.0 * (HALF_FRAME_MM / focal_length_mm).atan().to_degrees()
+}
+
 /// An orthonormal basis of the picture: forward, right, up.
 #[derive(Debug, Clone, Copy)]
 pub struct View {

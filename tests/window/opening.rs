@@ -106,15 +106,44 @@ fn a_partner_keeps_every_setting_and_undo() {
 
     drop_files(&mut harness, &[&heat]);
     settle(&mut harness);
-    wanted.volume.path = vec![soot, heat];
+    wanted.volume.path = vec![soot.clone(), heat];
     assert_eq!(harness.state().document().project, wanted);
     harness.get_by_label("soot.txt + temperature.txt");
     harness.get_by_label_contains("1700 K");
 
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    harness.run_steps(2);
+    // The opening is a step of undo, and the changes before it are the ones before.
+    let mut undo = || {
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        harness.run_steps(2);
+        let document = harness.state().document();
+        let files = document.volume().map(|volume| volume.sources.clone());
+        (document.project.clone(), files)
+    };
+    wanted.volume.path = vec![soot];
+    assert_eq!(undo(), (wanted.clone(), Some(wanted.volume.path.clone())));
     wanted.soot.radius_nm = radius;
-    assert_eq!(harness.state().document().project, wanted);
+    assert_eq!(undo().0, wanted);
+}
+
+#[test]
+fn a_file_dropped_by_mistake_can_be_taken_back() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (soot, _) = soot_and_heat(folder.path());
+    let mut harness = window(Project::default());
+    set_slider(&mut harness, "Soot radius", 60.0);
+    drop_files(&mut harness, &[&soot]);
+    settle(&mut harness);
+    harness.get_by_label("soot.txt");
+    harness.get_by_label("Undo").click();
+    harness.run_steps(2);
+    settle(&mut harness);
+    harness.get_by_label("built-in flame");
+    let job = harness.state().job().expect("a job");
+    assert!(job.volume.sources.is_empty() && job.flame.soot_radius_nm == 60.0);
+    harness.get_by_label("Redo").click();
+    harness.run_steps(2);
+    settle(&mut harness);
+    harness.get_by_label("soot.txt");
 }
 
 #[test]
@@ -124,10 +153,19 @@ fn a_black_picture_is_told() {
     harness.state_mut().document_mut().project.soot.amount = 0.0;
     harness.run_steps(2);
     settle(&mut harness);
-    harness.get_by_label_contains("the picture is black");
-    harness.state_mut().document_mut().project.soot.amount = 1.0;
+    harness.get_by_label_contains("the amount of soot is 0");
+    harness.get_by_label("Set the soot amount to 1").click();
     harness.run_steps(2);
     settle(&mut harness);
+    assert!(harness.query_by_label_contains("black").is_none());
+    assert_eq!(harness.state().document().project.soot.amount, 1.0);
+
+    set_slider(&mut harness, "Exposure", -10.0);
+    harness.state_mut().document_mut().project.view.exposure_ev = -20.0;
+    harness.run_steps(2);
+    harness.get_by_label_contains("black at this exposure");
+    harness.get_by_label("Expose it automatically").click();
+    harness.run_steps(2);
     assert!(harness.query_by_label_contains("black").is_none());
 }
 

@@ -1,11 +1,16 @@
 //! Which files, how they were understood, and what could not be taken from them.
 
+use std::path::PathBuf;
+
 use egui::{Key, Label, RichText, TextEdit, Ui};
 
-use super::{Command, headline, short};
+use super::knob::button;
+use super::{Command, section, short};
 use crate::app::Document;
 use crate::app::files::paths_of;
+use crate::app::recent::Recent;
 use crate::app::theme::WARNING;
+use crate::scene::flame::world_bounds;
 
 /// What the section remembers between frames.
 #[derive(Debug, Default)]
@@ -17,7 +22,13 @@ pub(in crate::app) struct FilePanel {
 
 impl FilePanel {
     /// Draws the section.
-    pub(super) fn show(&mut self, ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        document: &Document,
+        recent: &Recent,
+        commands: &mut Vec<Command>,
+    ) {
         ui.add(Label::new(RichText::new(document.title()).strong().size(16.0)).truncate());
         ui.add_space(3.0);
         ui.horizontal(|ui| {
@@ -28,8 +39,19 @@ impl FilePanel {
             if open.clicked() {
                 commands.push(Command::Ask);
             }
+            open_again(ui, recent, commands);
+            let tip = "Take the last change back (Ctrl+Z).";
+            if button(ui, document.can_undo(), "Undo", tip) {
+                commands.push(Command::Undo);
+            }
+            let tip = "Do again what was taken back (Ctrl+Shift+Z).";
+            if button(ui, document.can_redo(), "Redo", tip) {
+                commands.push(Command::Redo);
+            }
+        });
+        ui.horizontal(|ui| {
             let field = TextEdit::singleline(&mut self.path)
-                .hint_text("or a path, then Enter")
+                .hint_text("a path, then Enter")
                 .desired_width(f32::INFINITY);
             let field = ui.add(field).on_hover_text("The path of a volume file.");
             if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
@@ -44,43 +66,80 @@ impl FilePanel {
     }
 }
 
+/// What was open before, and the flame that needs no file.
+fn open_again(ui: &mut Ui, recent: &Recent, commands: &mut Vec<Command>) {
+    let menu = ui.menu_button("Recent", |ui| {
+        for files in recent.iter() {
+            let name = |path: &PathBuf| {
+                let name = path.file_name().unwrap_or(path.as_os_str());
+                name.to_string_lossy().into_owned()
+            };
+            let names: Vec<String> = files.iter().map(name).collect();
+            let paths: Vec<String> = files
+                .iter()
+                .map(|path| path.display().to_string())
+                .collect();
+            let entry = ui.button(names.join(" + "));
+            if entry.on_hover_text(paths.join("\n")).clicked() {
+                commands.push(Command::Open(files.to_vec()));
+            }
+        }
+        if recent.iter().next().is_some() {
+            ui.separator();
+        }
+        if ui.button("Built-in flame").clicked() {
+            commands.push(Command::BuiltIn);
+        }
+    });
+    menu.response
+        .on_hover_text("Files that were opened before, and the built-in flame.");
+}
+
 /// What was found in the file: at the end, because it is as long as it must be.
 pub(super) fn findings(ui: &mut Ui, document: &Document) {
     let (Some(job), Some(recognised)) = (document.last_job(), document.recognised()) else {
         return;
     };
-    headline(ui, "What was read");
-    ui.label(format!("Format: {}", job.volume.format.name()));
-    let why = if job.producer == recognised.producer {
-        recognised.reason.as_str()
-    } else {
-        "set by hand"
-    };
-    ui.label(format!("Read as {}: {why}.", job.producer.name()));
-    for row in document.fields() {
-        ui.add_space(4.0);
-        let title = format!("{} from “{}”", row.kind.name(), row.grid);
-        ui.label(RichText::new(title).strong());
-        let range = |(low, high): (f64, f64)| format!("{} … {}", short(low), short(high));
-        let words = format!(
-            "in the file {}\nin the fire {} {}",
-            range(row.raw),
-            range(row.mapped),
-            row.kind.unit()
-        );
-        ui.label(words.trim_end()).on_hover_text(
-            "Lowest and highest value in the file, and what they are taken to be. f_v is the volume of soot in a \
-             volume of gas.",
-        );
-    }
+    section(ui, "What was read", true, |ui| {
+        ui.label(format!("Format: {}", job.volume.format.name()));
+        let why = if job.producer == recognised.producer {
+            recognised.reason.as_str()
+        } else {
+            "set by hand"
+        };
+        ui.label(format!("Read as {}: {why}.", job.producer.name()));
+        let flame = &job.flame;
+        let bounds = world_bounds(&job.volume, &flame.maps, &flame.placement);
+        if !bounds.is_empty() {
+            let [x, y, z] = bounds.size().to_array().map(short);
+            ui.label(format!("Size of the fire: {x} × {y} × {z} m"));
+        }
+        for row in document.fields() {
+            ui.add_space(4.0);
+            let title = format!("{} from “{}”", row.kind.name(), row.grid);
+            ui.label(RichText::new(title).strong());
+            let range = |(low, high): (f64, f64)| format!("{} … {}", short(low), short(high));
+            let words = format!(
+                "in the file {}\nin the fire {} {}",
+                range(row.raw),
+                range(row.mapped),
+                row.kind.unit()
+            );
+            ui.label(words.trim_end()).on_hover_text(
+                "Lowest and highest value in the file, and what they are taken to be. f_v is the volume of soot in a \
+                 volume of gas.",
+            );
+        }
+    });
 }
 
 /// Everything assumed or not faithful.
 pub(super) fn flaws(ui: &mut Ui, flaws: &[String]) {
     if !flaws.is_empty() {
-        headline(ui, "Assumed or not faithful");
-        for flaw in flaws {
-            ui.label(RichText::new(format!("• {flaw}")).color(WARNING));
-        }
+        section(ui, "Assumed or not faithful", true, |ui| {
+            for flaw in flaws {
+                ui.label(RichText::new(format!("• {flaw}")).color(WARNING));
+            }
+        });
     }
 }

@@ -1,29 +1,111 @@
-//! What burns and what it is made of.
+//! What burns, what its soot is like, and how hot it is.
 
 use egui::Ui;
 
-use super::{Knob, headline};
+use super::knob::{Choice, Knob, name};
+use super::{section, unit};
 use crate::physics::soot::{
-    Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM,
+    Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM, SootModel,
 };
-use crate::project::Project;
+use crate::project::{Control, Job, Project, SootSettings, ranges, why_idle};
+use crate::scene::Fuel;
+
+/// What temperature offsets may be, K: more than any flame.
+const OFFSETS_K: [f64; 2] = [-1e5, 1e5];
+/// What factors from a file's numbers to kelvin may be.
+const SCALES_K: [f64; 2] = [-1e9, 1e9];
 
 /// Draws the section.
-pub(super) fn show(ui: &mut Ui, project: &mut Project) {
-    headline(ui, "Fire");
+pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
+    section(ui, "Fire", true, |ui| {
+        let idle = |control| job.and_then(|job| why_idle(job, control));
+        fuel(ui, project, idle(Control::Fuel));
+        radius(ui, project, idle(Control::SootRadius));
+        let default = SootSettings::default();
+        Knob {
+            label: "Soot amount",
+            unit: unit::TIMES,
+            slider: [0.01, 100.0],
+            range: ranges::AMOUNT,
+            logarithmic: true,
+            default: default.amount,
+            tip: "Multiplies the soot of the file. More soot glows more and hides more of what is behind it: a thick \
+                  fire shines like a solid of its own temperature, a thin one is transparent.",
+            idle: idle(Control::SootAmount),
+        }
+        .show(ui, &mut project.soot.amount);
+        Knob {
+            label: "Smoke amount",
+            unit: unit::TIMES,
+            slider: [0.01, 100.0],
+            range: ranges::AMOUNT,
+            logarithmic: true,
+            default: 1.0,
+            tip: "Multiplies the smoke of the file: soot beside the flame's own. Where it is cold it only darkens, \
+                  where it is hot it glows.",
+            idle: idle(Control::SmokeAmount),
+        }
+        .show(ui, &mut project.smoke.amount);
+        heat(ui, project, job);
+    });
+}
+
+fn fuel(ui: &mut Ui, project: &mut Project, idle: Option<String>) {
+    let words = |fuel: Fuel| match fuel {
+        Fuel::Propane => "Propane, C₃H₈",
+        Fuel::Acetylene => "Acetylene, C₂H₂",
+    };
+    let options = Fuel::ALL.map(|fuel| (fuel, words(fuel).to_owned(), ""));
+    Choice {
+        label: "Fuel",
+        options: &options,
+        tip: "What burns. Soot of each fuel was measured to absorb, and so to glow, differently over the colours.",
+        default: Fuel::default(),
+        idle,
+    }
+    .show(ui, &mut project.fuel.name);
+    let words = |model: SootModel| match model {
+        SootModel::Chang => ("Chang 1990", "One index for the soot of all fuels."),
+        SootModel::DalzellSarofim => ("Dalzell & Sarofim 1969", "An index for each fuel's soot."),
+        SootModel::HottelBroughton => (
+            "Hottel & Broughton 1932",
+            "Absorption falls with the power 1.39 of the wavelength: redder transparency.",
+        ),
+    };
+    let options = SootModel::ALL.map(|model| {
+        let (words, tip) = words(model);
+        (model, words.to_owned(), tip)
+    });
+    Choice {
+        label: "Soot model",
+        options: &options,
+        tip: "Whose measurement says how soot's absorption depends on wavelength.",
+        default: SootModel::default(),
+        idle: None,
+    }
+    .show(ui, &mut project.soot.model);
+}
+
+fn radius(ui: &mut Ui, project: &mut Project, idle: Option<String>) {
     Knob {
         label: "Soot radius",
-        unit: " nm",
-        range: [SMALLEST_RADIUS_NM, LARGEST_AGGREGATE_RADIUS_NM],
+        unit: unit::NANOMETRES,
+        slider: [SMALLEST_RADIUS_NM, LARGEST_AGGREGATE_RADIUS_NM],
+        range: ranges::SOOT_RADIUS_NM,
         logarithmic: false,
         default: REFERENCE_RADIUS_NM,
-        tip: "Radius of the soot's particles. Larger ones scatter more light. What the fire looks like depends on \
-              what stays the same meanwhile: the volume of soot (it glows as before), or the number of particles \
-              (there is more soot, with the cube of the radius: brighter, denser, less transparent).",
+        tip: "Radius of the soot's particles. What the fire looks like depends on what stays the same meanwhile: the \
+              number of particles (there is more soot, with the cube of the radius: brighter, denser, less \
+              transparent) or the volume of soot (it absorbs and glows as before).",
+        idle,
     }
     .show(ui, &mut project.soot.radius_nm);
     ui.horizontal(|ui| {
-        ui.label("Keep the soot's");
+        name(
+            ui,
+            "Radius keeps",
+            "What stays the same when the radius changes.",
+        );
         let hold = &mut project.soot.hold;
         ui.selectable_value(hold, Hold::Volume, "volume")
             .on_hover_text("The volume of soot stays: fewer, larger particles.");
@@ -32,15 +114,51 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
                 "The number of particles stays: each grows, and so does the amount of soot.",
             );
     });
-    ui.add_space(5.0);
-    Knob {
-        label: "Soot amount",
-        unit: " ×",
-        range: [0.01, 100.0],
+}
+
+/// How the file's heat becomes kelvin. The numbers of the preset are the defaults.
+fn heat(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
+    let maps = job.and_then(|job| {
+        Some((
+            job.flame.maps.temperature.as_ref()?,
+            job.proposed.temperature.as_ref()?,
+        ))
+    });
+    let Some((map, proposed)) = maps else {
+        return;
+    };
+    let set = &mut project.volume.temperature;
+    let size = proposed.scale.abs().max(1e-6);
+    let mut scale = set.scale.unwrap_or(map.scale);
+    let changed = Knob {
+        label: "Temp. scale",
+        unit: unit::KELVIN_PER_UNIT,
+        slider: [0.25 * size, 4.0 * size],
+        range: SCALES_K,
         logarithmic: true,
-        default: 1.0,
-        tip: "Multiplies the soot of the file. More soot glows more and hides more of what is behind it: a thick \
-              fire shines like a solid of its own temperature, a thin one is transparent.",
+        default: proposed.scale,
+        tip: "Kelvin for one unit of the file's heat. Hotter soot is brighter and whiter: its light grows with about \
+              the tenth power of its temperature. Solvers write heat without a unit, so this is the first number to \
+              get right. What exceeds the field's bounds is cut off there, and said below.",
+        idle: None,
     }
-    .show(ui, &mut project.soot.amount);
+    .show(ui, &mut scale);
+    if changed {
+        set.scale = (scale != proposed.scale).then_some(scale);
+    }
+    let mut offset = set.offset.unwrap_or(map.offset);
+    let changed = Knob {
+        label: "Temp. offset",
+        unit: unit::KELVIN,
+        slider: [proposed.offset - 1000.0, proposed.offset + 1000.0],
+        range: OFFSETS_K,
+        logarithmic: false,
+        default: proposed.offset,
+        tip: "Temperature where the file's heat is 0. Raising it warms all of the fire by as many kelvin.",
+        idle: None,
+    }
+    .show(ui, &mut offset);
+    if changed {
+        set.offset = (offset != proposed.offset).then_some(offset);
+    }
 }

@@ -1,23 +1,28 @@
 //! The controls. A panel changes the document's plain data; what it cannot do itself it asks for with a
 //! [`Command`], which is obeyed once every panel is drawn.
 
+mod air;
+mod camera;
 mod file;
 mod fire;
+mod knob;
 mod overlay;
 mod quality;
 mod status;
+mod unit;
 mod view;
+mod volume;
 
 use std::path::PathBuf;
 
-use egui::{
-    DragValue, Frame, Label, Panel, Response, RichText, ScrollArea, Slider, SliderClamping, Ui,
-};
+use egui::{CollapsingHeader, Frame, Panel, RichText, ScrollArea, Ui};
 
 pub(super) use overlay::overlay;
 pub(super) use status::status;
 
 use super::Document;
+use super::recent::Recent;
+use crate::project::Mend;
 
 /// What a panel cannot do itself.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,21 +31,35 @@ pub(super) enum Command {
     Ask,
     /// Open these files.
     Open(Vec<PathBuf>),
-    /// Measure exposure and white on the present picture.
-    Meter,
+    /// Show the built-in flame.
+    BuiltIn,
+    /// Take the last change back.
+    Undo,
+    /// Take the last undo back.
+    Redo,
+    /// Show all of the fire.
+    FrameAll,
+    /// Change what keeps the picture black.
+    Mend(Mend),
+    /// Measure exposure and white on the present picture, and expose so.
+    AutoExposure,
     /// Take the notice away.
     Dismiss,
 }
 
 /// Width of the panel in points, scroll bar included.
-const WIDTH: f32 = 312.0;
+const WIDTH: f32 = 348.0;
+/// Widest share of the window that the panel takes.
+const MOST_OF_WINDOW: f32 = 0.6;
 /// Space around the controls.
-const MARGIN: i8 = 14;
+const MARGIN: i8 = 12;
 
 /// The panel at the right, with what is typed but not yet entered.
 #[derive(Debug, Default)]
 pub(super) struct Panels {
     pub(super) file: file::FilePanel,
+    /// Whether the panel is out of sight, for the picture's sake.
+    pub(super) hidden: bool,
 }
 
 impl Panels {
@@ -49,21 +68,31 @@ impl Panels {
         &mut self,
         ui: &mut Ui,
         document: &mut Document,
+        recent: &Recent,
         flaws: &[String],
         commands: &mut Vec<Command>,
     ) {
+        if self.hidden {
+            return;
+        }
+        let width = WIDTH.min(MOST_OF_WINDOW * ui.ctx().content_rect().width());
         let frame = Frame::new().fill(ui.visuals().panel_fill);
         Panel::right("controls")
             .resizable(false)
-            .exact_size(WIDTH)
+            .exact_size(width)
             .frame(frame)
             .show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     Frame::new().inner_margin(MARGIN).show(ui, |ui| {
-                        self.file.show(ui, document, commands);
-                        fire::show(ui, &mut document.project);
-                        view::show(ui, &mut document.project, commands);
-                        quality::show(ui, &mut document.project);
+                        self.file.show(ui, document, recent, commands);
+                        let recognised = document.recognised().cloned();
+                        let (project, job) = document.parts();
+                        fire::show(ui, project, job);
+                        air::show(ui, project, job);
+                        view::show(ui, project, commands);
+                        quality::show(ui, project);
+                        volume::show(ui, project, job, recognised.as_ref());
+                        camera::show(ui, document, commands);
                         file::findings(ui, document);
                         file::flaws(ui, flaws);
                     });
@@ -72,75 +101,15 @@ impl Panels {
     }
 }
 
-/// The headline of a section.
-fn headline(ui: &mut Ui, title: &str) {
-    ui.add_space(14.0);
-    ui.label(RichText::new(title).strong());
-    ui.separator();
-}
-
-/// A number to be set: name and value above, slider below; a double click sets the default.
-struct Knob<'a> {
-    label: &'a str,
-    unit: &'a str,
-    range: [f64; 2],
-    logarithmic: bool,
-    default: f64,
-    /// What it does to the fire, and why.
-    tip: &'a str,
-}
-
-impl Knob<'_> {
-    /// Draws it. True if the value was changed; it stays within the range unless it came from outside.
-    fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
-        let old = *value;
-        let [low, high] = self.range;
-        let tip = format!(
-            "{} Double-click: back to {}{}.",
-            self.tip,
-            short(self.default),
-            self.unit
-        );
-        let number = |value| {
-            DragValue::new(value)
-                .range(low..=high)
-                .clamp_existing_to_range(false)
-                .speed(0.004 * (high - low))
-                .min_decimals(2)
-                .max_decimals(2)
-                .suffix(self.unit)
-        };
-        let name = ui
-            .horizontal(|ui| {
-                let name = ui
-                    .add(Label::new(self.label).selectable(false))
-                    .on_hover_text(&tip);
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    ui.add(number(value)).labelled_by(name.id);
-                });
-                name
-            })
-            .inner;
-        ui.spacing_mut().slider_width = ui.available_width();
-        let slider = Slider::new(value, low..=high)
-            .logarithmic(self.logarithmic)
-            .clamping(SliderClamping::Edits)
-            .show_value(false);
-        let slider = ui.add(slider).labelled_by(name.id).on_hover_text(&tip);
-        ui.add_space(5.0);
-        let double_clicked = |on: &Response| {
-            on.contains_pointer()
-                && ui.input(|input| {
-                    input
-                        .pointer
-                        .button_double_clicked(egui::PointerButton::Primary)
-                })
-        };
-        if double_clicked(&slider) || double_clicked(&name) {
-            *value = self.default;
-        }
-        *value != old
-    }
+/// A section that folds.
+fn section(ui: &mut Ui, title: &str, open: bool, content: impl FnOnce(&mut Ui)) {
+    ui.add_space(6.0);
+    CollapsingHeader::new(RichText::new(title).strong())
+        .default_open(open)
+        .show_unindented(ui, |ui| {
+            ui.add_space(2.0);
+            content(ui);
+        });
 }
 
 /// A number in as few characters as tell it.

@@ -1,13 +1,14 @@
 //! What lies over the picture: what went wrong, and where dropped files will land.
 
 use egui::{
-    Align2, Area, Color32, FontId, Frame, Id, LayerId, Order, RichText, Stroke, StrokeKind, Ui,
-    vec2,
+    Align2, Area, Color32, FontId, Frame, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind,
+    Ui, vec2,
 };
 
 use super::Command;
 use crate::app::App;
 use crate::app::theme::ERROR;
+use crate::project::Darkness;
 
 /// Height of a line of the drop target in points.
 const LINE: f32 = 30.0;
@@ -15,41 +16,77 @@ const LINE: f32 = 30.0;
 const NOTE_WIDTH: f32 = 520.0;
 
 /// Draws notes in the corner of the picture, and the drop target while files hover.
-pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    notes(ui, app, commands);
+pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
+    notes(ui, app, canvas, commands);
     let hovering = ui.input(|input| input.raw.hovered_files.clone());
     if !hovering.is_empty() {
         drop_target(ui, &hovering);
     }
 }
 
-fn notes(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let failure = app.picture.progress.failure.as_deref();
-    let notes: Vec<(&str, bool)> = [
-        (app.notice(), true),
-        (app.document.problem(), false),
-        (failure, false),
-    ]
-    .into_iter()
-    .filter_map(|(words, dismissible)| Some((words?, dismissible)))
-    .chain(app.meter.flaws().iter().map(|words| (words, false)))
-    .collect();
+/// Something to tell over the picture, and what can be done about it.
+struct Note {
+    words: String,
+    remedy: Option<(String, Command)>,
+}
+
+impl Note {
+    fn plain(words: &str) -> Self {
+        Self {
+            words: words.to_owned(),
+            remedy: None,
+        }
+    }
+}
+
+fn all_notes(app: &App) -> Vec<Note> {
+    let mut notes = Vec::new();
+    notes.extend(app.notice().map(|words| Note {
+        words: words.to_owned(),
+        remedy: Some(("Dismiss".to_owned(), Command::Dismiss)),
+    }));
+    notes.extend(app.document.problem().map(Note::plain));
+    notes.extend(app.picture.progress.failure.as_deref().map(Note::plain));
+    notes.extend(app.meter.flaws().iter().map(Note::plain));
+    if app.meter.is_black() {
+        notes.extend(app.job().map(|job| {
+            let darkness = Darkness::of(job);
+            let remedy = darkness
+                .mend
+                .map(|mend| (mend.label(), Command::Mend(mend)));
+            Note {
+                words: darkness.words,
+                remedy,
+            }
+        }));
+    } else if app.meter.is_underexposed(&app.view()) {
+        notes.push(Note {
+            words: "the picture is black at this exposure".to_owned(),
+            remedy: Some(("Expose it automatically".to_owned(), Command::AutoExposure)),
+        });
+    }
+    notes
+}
+
+fn notes(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
+    let notes = all_notes(app);
     if notes.is_empty() {
         return;
     }
-    let corner = ui.max_rect().min + vec2(12.0, 12.0);
     Area::new(Id::unique("notes"))
         .order(Order::Foreground)
-        .fixed_pos(corner)
+        .fixed_pos(canvas.min + vec2(12.0, 12.0))
         .show(ui.ctx(), |ui| {
-            ui.set_max_width(NOTE_WIDTH.min(ui.ctx().content_rect().width() - 360.0));
-            for (words, dismissible) in notes {
+            ui.set_max_width(NOTE_WIDTH.min(canvas.width() - 24.0));
+            for note in notes {
                 Frame::popup(ui.style())
                     .stroke(Stroke::new(1.0, ERROR))
                     .show(ui, |ui| {
-                        ui.label(RichText::new(words).color(Color32::from_gray(225)));
-                        if dismissible && ui.button("Dismiss").clicked() {
-                            commands.push(Command::Dismiss);
+                        ui.label(RichText::new(note.words).color(Color32::from_gray(225)));
+                        if let Some((label, command)) = note.remedy
+                            && ui.button(label).clicked()
+                        {
+                            commands.push(command);
                         }
                     });
             }

@@ -2,25 +2,107 @@
 
 use egui::Ui;
 
-use super::{Knob, headline};
-use crate::project::Project;
+use super::knob::{Choice, Knob};
+use super::{section, unit};
+use crate::project::{Project, Quality, ranges};
+use crate::scene::WavelengthSet;
+
+/// Rays for each pixel that are offered.
+const RAYS: [u32; 5] = [1, 2, 4, 8, 16];
 
 /// Draws the section.
 pub(super) fn show(ui: &mut Ui, project: &mut Project) {
-    headline(ui, "Quality");
-    let (default, ..) = project.render.quality.numbers();
-    let mut step = project.render.step_voxels.unwrap_or(default);
-    let changed = Knob {
-        label: "Step size",
-        unit: " voxels",
-        range: [0.25, 8.0],
-        logarithmic: true,
-        default,
-        tip: "How far apart the fire is sampled along a line of sight. Longer steps are faster in proportion, but \
-              step over thin sheets of flame: they become blurred and too dim or too bright.",
-    }
-    .show(ui, &mut step);
-    if changed {
-        project.render.step_voxels = (step != default).then_some(step);
-    }
+    section(ui, "Quality", true, |ui| {
+        let render = &mut project.render;
+        let options = Quality::ALL.map(|quality| {
+            let (step, wavelengths, rays) = quality.numbers();
+            let words = format!(
+                "{} · {step} voxels, {} wavelengths, {rays} {}",
+                capitalised(quality.name()),
+                wavelengths.count(),
+                if rays == 1 { "ray" } else { "rays" },
+            );
+            (quality, words, "")
+        });
+        let changed = Choice {
+            label: "Preset",
+            options: &options,
+            tip: "Step size, wavelengths and rays together. A still can be exported at another quality.",
+            default: Quality::default(),
+            idle: None,
+        }
+        .show(ui, &mut render.quality);
+        if changed {
+            // A preset that is chosen by hand is meant to be seen.
+            (
+                render.step_voxels,
+                render.wavelengths,
+                render.samples_per_pixel,
+            ) = (None, None, None);
+        }
+        let (step_default, wavelengths_default, rays_default) = render.quality.numbers();
+
+        let mut step = render.step_voxels.unwrap_or(step_default);
+        let changed = Knob {
+            label: "Step size",
+            unit: unit::VOXELS,
+            slider: [0.25, 8.0],
+            range: ranges::STEP_VOXELS,
+            logarithmic: true,
+            default: step_default,
+            tip: "How far apart the fire is sampled along a line of sight. Longer steps are faster in proportion, but \
+                  step over thin sheets of flame: they become blurred and too dim or too bright.",
+            idle: None,
+        }
+        .show(ui, &mut step);
+        if changed {
+            render.step_voxels = (step != step_default).then_some(step);
+        }
+
+        let options = WavelengthSet::ALL.map(|set| {
+            let (kind, tip) = match set {
+                WavelengthSet::Fitted(_) => ("fitted", "Chosen and weighted for this fire's soot."),
+                WavelengthSet::Plain(_) => ("plain", "Evenly over the spectrum: for comparison."),
+            };
+            (set, format!("{} {kind}", set.count()), tip)
+        });
+        let mut wavelengths = render.wavelengths.unwrap_or(wavelengths_default);
+        let changed = Choice {
+            label: "Wavelengths",
+            options: &options,
+            tip: "At how many wavelengths light is carried through the fire. Six fitted ones are within 0.1 % of all.",
+            default: wavelengths_default,
+            idle: None,
+        }
+        .show(ui, &mut wavelengths);
+        if changed {
+            render.wavelengths = (wavelengths != wavelengths_default).then_some(wavelengths);
+        }
+
+        let mut rays = render.samples_per_pixel.unwrap_or(rays_default);
+        let mut options: Vec<(u32, String, &str)> =
+            RAYS.map(|rays| (rays, rays.to_string(), "")).to_vec();
+        if !RAYS.contains(&rays) {
+            options.push((rays, rays.to_string(), ""));
+        }
+        let changed = Choice {
+            label: "Rays a pixel",
+            options: &options,
+            tip: "More rays smooth the edges; each costs as much time as the first.",
+            default: rays_default,
+            idle: None,
+        }
+        .show(ui, &mut rays);
+        if changed {
+            render.samples_per_pixel = (rays != rays_default).then_some(rays);
+        }
+    });
+}
+
+/// A name with a capital, as a menu has it.
+pub(super) fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }

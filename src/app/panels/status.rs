@@ -2,82 +2,107 @@
 
 use std::time::Duration;
 
-use egui::{Frame, Label, Margin, Panel, ProgressBar, RichText, Ui, vec2};
+use egui::{Align, Frame, Label, Layout, Margin, Panel, ProgressBar, RichText, Ui, vec2};
 
 use crate::app::App;
 use crate::app::theme::WARNING;
 use crate::engine::picture::Progress;
+use crate::render::Pass;
+
+/// Height of the line in points, and of the space above and below its words.
+const HEIGHT: f32 = 28.0;
+const MARGIN: i8 = 3;
 
 /// Draws the line.
 pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
     let frame = Frame::new()
         .fill(ui.visuals().panel_fill)
-        .inner_margin(Margin::symmetric(12, 3));
+        .inner_margin(Margin::symmetric(12, MARGIN));
     Panel::bottom("status")
         .resizable(false)
-        .exact_size(28.0)
+        .exact_size(HEIGHT)
         .frame(frame)
         .show(ui, |ui| {
+            // The line is as high whatever it says: the picture above must keep its size.
+            ui.set_min_height(HEIGHT - 2.0 * f32::from(MARGIN));
             ui.horizontal_centered(|ui| {
-                if let Some(what) = app.loader.loading() {
-                    ui.add(Label::new(format!("Reading {what}…")).truncate());
-                    return;
-                }
-                let waiting = Progress::default();
-                let progress = if app.renders_newest() {
-                    &app.picture.progress
+                if app.loader.loading().is_some() {
+                    loading(ui, app);
                 } else {
-                    &waiting
-                };
-                ui.add(
-                    ProgressBar::new(share(progress))
-                        .desired_width(120.0)
-                        .desired_height(6.0),
-                );
-                let since = app
-                    .submitted
-                    .as_ref()
-                    .map_or(Duration::ZERO, |submitted| submitted.at.elapsed());
-                flaw_count(ui, &app.flaws());
-                for (words, width) in cells(progress, since) {
-                    // Cells of fixed width: the line does not jump while its numbers run.
-                    let text = Label::new(RichText::new(words)).truncate();
-                    ui.allocate_ui(vec2(width, ui.available_height()), |ui| {
-                        ui.set_min_width(width);
-                        ui.add(text);
-                    });
+                    rendering(ui, app);
                 }
+                let flaws = app.flaws();
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    flaw_words(ui, &flaws);
+                });
             });
         });
 }
 
-/// How much of the picture is assumed, always in sight; all of it in words under the pointer. It comes before the
-/// numbers, so that a narrow window cuts those first.
-fn flaw_count(ui: &mut Ui, flaws: &[&str]) {
-    let words = match flaws.len() {
-        0 => return,
-        1 => "1 assumption".to_owned(),
-        n => format!("{n} assumptions"),
+/// What is being read.
+fn loading(ui: &mut Ui, app: &App) {
+    let Some(what) = app.loader.loading() else {
+        return;
     };
-    ui.label(RichText::new(words).color(WARNING))
-        .on_hover_text(flaws.join("\n"));
+    ui.add(Label::new(format!("Reading {what}…")).truncate());
 }
 
-/// Finished share of all rays, 0 to 1.
+/// How far the picture is and how fast, as much of it as there is room for.
+fn rendering(ui: &mut Ui, app: &App) {
+    let waiting = Progress::default();
+    let progress = if app.renders_newest() {
+        &app.picture.progress
+    } else {
+        &waiting
+    };
+    let since = app
+        .submitted
+        .as_ref()
+        .map_or(Duration::ZERO, |submitted| submitted.at.elapsed());
+    let bar = ProgressBar::new(share(progress))
+        .desired_width(BAR_WIDTH)
+        .desired_height(6.0);
+    ui.add(bar);
+    for (words, width) in cells(progress, since) {
+        if ui.available_width() < width + FLAWS_WIDTH {
+            break;
+        }
+        // Cells of fixed width: the line does not jump while its numbers run.
+        ui.allocate_ui(vec2(width, ui.available_height()), |ui| {
+            ui.set_min_width(width);
+            ui.add(Label::new(words).truncate());
+        });
+    }
+}
+
+/// Width of the bar in points.
+const BAR_WIDTH: f32 = 96.0;
+/// Room that is kept for the flaws' words, points.
+const FLAWS_WIDTH: f32 = 120.0;
+
+/// What of the picture is assumed, always in sight: the first in words, all of them under the pointer.
+fn flaw_words(ui: &mut Ui, flaws: &[&str]) {
+    let words = match flaws {
+        [] => return,
+        [only] => (*only).to_owned(),
+        [first, rest @ ..] => format!("{} assumptions: {first}; +{}", flaws.len(), rest.len()),
+    };
+    let lines: Vec<String> = flaws.iter().map(|flaw| format!("• {flaw}")).collect();
+    ui.add(Label::new(RichText::new(words).color(WARNING)).truncate())
+        .on_hover_text(lines.join("\n"));
+}
+
+/// Finished share of all samples, 0 to 1.
 fn share(progress: &Progress) -> f32 {
     if progress.finished {
         return 1.0;
     }
-    let weight = |stride: u32| 1.0 / f64::from(stride * stride);
-    let all: f64 = progress.passes.iter().map(|pass| weight(pass.stride)).sum();
-    let done: f64 = progress
-        .passes
-        .iter()
-        .take(progress.done)
-        .map(|pass| weight(pass.stride))
-        .sum();
+    // Samples of a pass: one for each step of each ray.
+    let weight = |pass: &Pass| 1.0 / (f64::from(pass.stride * pass.stride) * pass.step_voxels);
+    let all: f64 = progress.passes.iter().map(weight).sum();
+    let done: f64 = progress.passes.iter().take(progress.done).map(weight).sum();
     let running = progress.passes.get(progress.done).map_or(0.0, |pass| {
-        weight(pass.stride) * progress.rays_in_pass as f64 / progress.rays_of_pass.max(1) as f64
+        weight(pass) * progress.rays_in_pass as f64 / progress.rays_of_pass.max(1) as f64
     });
     if all > 0.0 {
         ((done + running) / all) as f32
@@ -86,7 +111,7 @@ fn share(progress: &Progress) -> f32 {
     }
 }
 
-/// The words of the line, each with the width that its longest form needs.
+/// The words of the line, each with the width that its longest form needs, the most wanted first.
 fn cells(progress: &Progress, since_submit: Duration) -> Vec<(String, f32)> {
     let count = progress.passes.len();
     let elapsed = if progress.finished {
@@ -108,15 +133,28 @@ fn cells(progress: &Progress, since_submit: Duration) -> Vec<(String, f32)> {
     });
     vec![
         (format!("{:.0} %", 100.0 * share(progress)), 42.0),
-        (format!("pass {pass}/{count}"), 74.0),
-        (format!("{elapsed:.2} s"), 64.0),
+        (time_left(progress, elapsed), 78.0),
+        (format!("pass {pass}/{count}"), 70.0),
+        (format!("{elapsed:.2} s"), 60.0),
         (format!("{} rays/s", counted(rate(progress.rays))), 104.0),
         (
             format!("{} samples/s", counted(rate(progress.samples))),
             124.0,
         ),
-        (format!("first picture {first}"), 150.0),
+        (format!("first picture {first}"), 146.0),
     ]
+}
+
+/// How long the rest takes, if it goes on as it went.
+fn time_left(progress: &Progress, elapsed: f64) -> String {
+    let share = f64::from(share(progress));
+    if progress.finished {
+        "done".to_owned()
+    } else if share > 0.0 {
+        format!("{:.1} s left", elapsed * (1.0 - share) / share)
+    } else {
+        "… s left".to_owned()
+    }
 }
 
 /// A large number with its prefix.
@@ -134,28 +172,41 @@ mod tests {
     use super::*;
     use crate::render::Pass;
 
-    #[test]
-    fn the_share_counts_rays_and_ends_at_one() {
-        let passes = [8, 4, 2, 1]
-            .map(|stride| Pass {
+    fn ladder(done: usize, rays_in_pass: u64) -> Progress {
+        let passes = [(8, 2.0), (4, 2.0), (2, 2.0), (1, 1.0)]
+            .map(|(stride, step_voxels)| Pass {
                 stride,
                 sample: 0,
-                step_voxels: 1.0,
+                step_voxels,
             })
             .to_vec();
-        let mut progress = Progress {
+        Progress {
             passes,
-            done: 3,
-            rays_in_pass: 50,
+            done,
+            rays_in_pass,
             rays_of_pass: 100,
             ..Progress::default()
-        };
-        let before_last = 1.0 / 64.0 + 1.0 / 16.0 + 0.25;
-        assert!(
-            (f64::from(share(&progress)) - (before_last + 0.5) / (before_last + 1.0)).abs() < 1e-6
-        );
+        }
+    }
+
+    #[test]
+    fn the_share_counts_samples_and_ends_at_one() {
+        let coarse = 0.5 * (1.0 / 64.0 + 1.0 / 16.0 + 0.25);
+        let mut progress = ladder(3, 50);
+        let expected = (coarse + 0.5) / (coarse + 1.0);
+        assert!((f64::from(share(&progress)) - expected).abs() < 1e-6);
         progress.finished = true;
         assert_eq!(share(&progress), 1.0);
         assert_eq!(share(&Progress::default()), 0.0);
+    }
+
+    #[test]
+    fn the_time_left_is_what_the_rest_takes_at_the_same_rate() {
+        let mut progress = ladder(3, 50);
+        let (share, left) = (f64::from(share(&progress)), time_left(&progress, 2.0));
+        assert_eq!(left, format!("{:.1} s left", 2.0 / share - 2.0));
+        progress.finished = true;
+        assert_eq!(time_left(&progress, 2.0), "done");
+        assert_eq!(time_left(&ladder(0, 0), 0.1), "… s left");
     }
 }
