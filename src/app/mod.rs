@@ -236,12 +236,8 @@ impl App {
             return;
         };
         match &mut self.submitted {
-            // The same picture may be meant by other numbers: humidity, where nothing shows it.
-            Some(submitted) if submitted.job == *job => {
-                if submitted.job.flame != job.flame {
-                    submitted.job = job.clone();
-                }
-            }
+            // The same picture may be meant by other numbers, such as a humidity that nothing shows.
+            Some(submitted) if submitted.job == *job => submitted.job = job.clone(),
             _ => {
                 let generation = self.engine.submit(job.clone());
                 self.submitted = Some(Submitted {

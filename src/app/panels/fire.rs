@@ -34,6 +34,13 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
             idle: idle(Control::SootAmount),
         }
         .show(ui, &mut project.soot.amount);
+    });
+}
+
+/// Draws the section of what the file's other fields are worth.
+pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
+    section(ui, "Heat and smoke", true, |ui| {
+        heat(ui, project, job);
         Knob {
             label: "Smoke amount",
             unit: unit::TIMES,
@@ -43,10 +50,9 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
             default: 1.0,
             tip: "Multiplies the smoke of the file: soot beside the flame's own. Where it is cold it only darkens, \
                   where it is hot it glows.",
-            idle: idle(Control::SmokeAmount),
+            idle: job.and_then(|job| why_idle(job, Control::SmokeAmount)),
         }
         .show(ui, &mut project.smoke.amount);
-        heat(ui, project, job);
     });
 }
 

@@ -91,6 +91,7 @@ impl Panels {
                         air::show(ui, project, job);
                         view::show(ui, project, commands);
                         quality::show(ui, project);
+                        fire::heat_and_smoke(ui, project, job);
                         volume::show(ui, project, job, recognised.as_ref());
                         camera::show(ui, document, commands);
                         file::findings(ui, document);

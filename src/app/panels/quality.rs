@@ -14,6 +14,24 @@ const RAYS: [u32; 5] = [1, 2, 4, 8, 16];
 pub(super) fn show(ui: &mut Ui, project: &mut Project) {
     section(ui, "Quality", true, |ui| {
         let render = &mut project.render;
+        let (step_default, ..) = render.quality.numbers();
+        let mut step = render.step_voxels.unwrap_or(step_default);
+        let changed = Knob {
+            label: "Step size",
+            unit: unit::VOXELS,
+            slider: [0.25, 8.0],
+            range: ranges::STEP_VOXELS,
+            logarithmic: true,
+            default: step_default,
+            tip: "How far apart the fire is sampled along a line of sight. Longer steps are faster in proportion, but \
+                  step over thin sheets of flame: they become blurred and too dim or too bright.",
+            idle: None,
+        }
+        .show(ui, &mut step);
+        if changed {
+            render.step_voxels = (step != step_default).then_some(step);
+        }
+
         let options = Quality::ALL.map(|quality| {
             let (step, wavelengths, rays) = quality.numbers();
             let words = format!(
@@ -40,24 +58,7 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
                 render.samples_per_pixel,
             ) = (None, None, None);
         }
-        let (step_default, wavelengths_default, rays_default) = render.quality.numbers();
-
-        let mut step = render.step_voxels.unwrap_or(step_default);
-        let changed = Knob {
-            label: "Step size",
-            unit: unit::VOXELS,
-            slider: [0.25, 8.0],
-            range: ranges::STEP_VOXELS,
-            logarithmic: true,
-            default: step_default,
-            tip: "How far apart the fire is sampled along a line of sight. Longer steps are faster in proportion, but \
-                  step over thin sheets of flame: they become blurred and too dim or too bright.",
-            idle: None,
-        }
-        .show(ui, &mut step);
-        if changed {
-            render.step_voxels = (step != step_default).then_some(step);
-        }
+        let (_, wavelengths_default, rays_default) = render.quality.numbers();
 
         let options = WavelengthSet::ALL.map(|set| {
             let (kind, tip) = match set {

@@ -1,0 +1,237 @@
+//! Every control changes the job or the view exactly as it should, and says so where it cannot.
+
+use sootlight::physics::soot::SootModel;
+use sootlight::project::Job;
+use sootlight::scene::Fuel;
+use sootlight::volume::Producer;
+
+use super::*;
+
+/// A window as tall as its panel, so that the pointer reaches every control.
+fn tall_window(project: Project) -> Harness<'static, App> {
+    let mut harness = Harness::builder()
+        .with_size([520.0, 1600.0])
+        .with_step_dt(0.05)
+        .build_eframe(|creation| App::new(creation, project).expect("the system gives threads"));
+    harness.state_mut().document_mut().fixed_size = Some([40, 60]);
+    settle(&mut harness);
+    harness
+}
+
+fn job(harness: &Harness<'_, App>) -> Job {
+    harness.state().job().cloned().expect("a job")
+}
+
+fn choose(harness: &mut Harness<'_, App>, menu: &str, option: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, menu).click();
+    harness.run_steps(3);
+    let options = harness.get_all_by_label(option).collect::<Vec<_>>();
+    // The chosen one of a menu is also its title.
+    options.last().expect("an option").click();
+    harness.run_steps(3);
+}
+
+/// Types into a number field as a person does: a click, the text, Enter.
+fn type_into(harness: &mut Harness<'_, App>, label: &str, text: &str) {
+    harness
+        .get_by_role_and_label(Role::SpinButton, label)
+        .click();
+    harness.run_steps(2);
+    harness
+        .input_mut()
+        .events
+        .push(egui::Event::Text(text.to_owned()));
+    harness.run_steps(1);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(2);
+}
+
+#[test]
+fn fuel_changes_the_job_and_the_picture_where_the_soot_model_looks_at_it() {
+    let mut harness = tall_window(Project::default());
+    let (before, generation) = (job(&harness), harness.state().generation());
+    harness.get_by_label_contains("measured one soot for all fuels");
+    choose(&mut harness, "Fuel", "Acetylene, C₂H₂");
+    assert_eq!(job(&harness).flame.fuel, Fuel::Acetylene);
+    assert_eq!(
+        harness.state().generation(),
+        generation,
+        "rendered for nothing"
+    );
+
+    choose(&mut harness, "Soot model", "Dalzell & Sarofim 1969");
+    assert_eq!(job(&harness).flame.soot_model, SootModel::DalzellSarofim);
+    assert!(harness.query_by_label_contains("for all fuels").is_none());
+    let acetylene = harness.state().generation();
+    assert_ne!(acetylene, generation);
+    choose(&mut harness, "Fuel", "Propane, C₃H₈");
+    assert_eq!(job(&harness).flame.fuel, Fuel::Propane);
+    assert_ne!(harness.state().generation(), acetylene);
+    assert_eq!(job(&harness).settings, before.settings);
+    assert_eq!(job(&harness).camera, before.camera);
+}
+
+#[test]
+fn humidity_and_carbon_dioxide_change_the_air_and_say_that_nothing_shows_it() {
+    let mut harness = tall_window(Project::default());
+    let (before, generation) = (job(&harness), harness.state().generation());
+    set_slider(&mut harness, "Humidity", 0.9);
+    set_slider(&mut harness, "CO₂", 1500.0);
+    let after = job(&harness);
+    assert_eq!(
+        (after.flame.air.humidity, after.flame.air.co2_ppm),
+        (0.9, 1500.0)
+    );
+    let mut same = after.flame.clone();
+    same.air = before.flame.air;
+    assert_eq!(same, before.flame, "something else changed");
+    assert_eq!(
+        harness.state().generation(),
+        generation,
+        "rendered for nothing"
+    );
+    harness.get_by_label("humidity acts through refraction; nothing behind the fire shows it");
+    harness
+        .get_by_label("carbon dioxide acts through refraction; nothing behind the fire shows it");
+}
+
+#[test]
+fn adaptation_changes_the_view_and_renders_nothing() {
+    let mut harness = tall_window(Project::default());
+    let (before, view, generation) = (
+        job(&harness),
+        harness.state().view(),
+        harness.state().generation(),
+    );
+    set_slider(&mut harness, "Adaptation", 0.75);
+    assert_eq!(
+        harness.state().view(),
+        View {
+            adaptation: 0.75,
+            ..view
+        }
+    );
+    assert_eq!(harness.state().generation(), generation);
+    assert_eq!(job(&harness), before);
+}
+
+#[test]
+fn numbers_are_typed_with_units_and_refused_in_words() {
+    let mut harness = tall_window(Project::default());
+    type_into(&mut harness, "Soot radius", "425 Å");
+    assert_eq!(job(&harness).flame.soot_radius_nm, 42.5);
+    type_into(&mut harness, "Adaptation", "60 %");
+    assert!((harness.state().view().adaptation - 0.6).abs() < 1e-12);
+
+    type_into(&mut harness, "Soot radius", "12 lbs");
+    assert_eq!(job(&harness).flame.soot_radius_nm, 42.5);
+    harness.get_by_label_contains("“12 lbs” is not understood");
+    type_into(&mut harness, "Soot radius", "1 µm");
+    assert_eq!(job(&harness).flame.soot_radius_nm, 100.0);
+    harness.get_by_label_contains("the most is 100 nm");
+    set_slider(&mut harness, "Soot radius", 30.0);
+    assert!(harness.query_by_label_contains("the most is").is_none());
+}
+
+#[test]
+fn a_double_click_resets_in_one_step_of_undo() {
+    let mut harness = tall_window(Project::default());
+    let default = job(&harness).flame.soot_radius_nm;
+    let radius = |harness: &Harness<'_, App>| job(harness).flame.soot_radius_nm;
+    for role in [Role::Label, Role::Slider] {
+        set_slider(&mut harness, "Soot radius", 60.0);
+        // So long ago that no click is a part of what came before.
+        for _ in 0..60 {
+            harness.run_steps(1);
+        }
+        for _ in 0..2 {
+            harness.get_by_role_and_label(role, "Soot radius").click();
+            harness.run_steps(1);
+        }
+        harness.run_steps(2);
+        assert_eq!(radius(&harness), default, "{role:?}");
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        harness.run_steps(2);
+        assert_eq!(radius(&harness), 60.0, "{role:?}");
+    }
+}
+
+#[test]
+fn heat_smoke_fields_and_producer_change_what_the_file_means() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (soot, heat) = soot_and_heat(folder.path());
+    let mut project = Project::default();
+    project.volume.path = vec![soot, heat];
+    let mut harness = tall_window(project);
+    let map = |harness: &Harness<'_, App>| job(harness).flame.maps.temperature.expect("a map");
+    let before = map(&harness);
+
+    set_slider(&mut harness, "Temp. scale", 0.5);
+    set_slider(&mut harness, "Temp. offset", 100.0);
+    let after = map(&harness);
+    assert_eq!((after.scale, after.offset), (0.5, 100.0));
+    assert_eq!((after.min, after.max), (before.min, before.max));
+    assert!((after.apply(1700.0) - 950.0).abs() < 1e-9);
+
+    harness.get_by_label_contains("this volume has no smoke field");
+    choose(&mut harness, "Smoke from", "soot");
+    assert!(harness.query_by_label_contains("no smoke field").is_none());
+    set_slider(&mut harness, "Smoke amount", 2.0);
+    let flame = job(&harness).flame;
+    assert_eq!(flame.maps.smoke.expect("smoke").grid, "soot");
+    assert_eq!(flame.smoke_amount, 2.0);
+
+    choose(&mut harness, "Producer", "Blender");
+    assert_eq!(job(&harness).producer, Producer::Blender);
+    choose(&mut harness, "Heat from", "None");
+    assert!(job(&harness).flame.maps.temperature.is_none());
+
+    set_slider(&mut harness, "Voxel size", 0.02);
+    assert!((job(&harness).flame.placement.metres_per_unit - 0.02).abs() < 1e-12);
+    choose(&mut harness, "Up axis", "y");
+    assert_eq!(
+        job(&harness).flame.placement.up,
+        sootlight::volume::UpAxis::Y
+    );
+}
+
+#[test]
+fn a_lens_keeps_the_camera_where_it_is() {
+    let mut harness = tall_window(Project::default());
+    let before = job(&harness).camera;
+    set_slider(&mut harness, "Focal length", 85.0);
+    let after = job(&harness).camera;
+    assert_eq!((after.eye, after.target), (before.eye, before.target));
+    let half_angle = (12.0_f64 / 85.0).atan().to_degrees();
+    assert!((after.fov_deg - 2.0 * half_angle).abs() < 1e-9);
+    type_into(&mut harness, "Focal length", "40°");
+    assert!((job(&harness).camera.fov_deg - 40.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_picture_size_is_rendered_whatever_the_window() {
+    let mut harness = tall_window(Project::default());
+    choose(&mut harness, "Picture", "1080 × 1080");
+    assert_eq!(job(&harness).settings.size, [1080, 1080]);
+    choose(&mut harness, "Picture", "fills the window");
+    assert_ne!(job(&harness).settings.size, [1080, 1080]);
+}
+
+#[test]
+fn what_was_open_before_and_the_built_in_flame_can_be_opened_again() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (soot, _) = soot_and_heat(folder.path());
+    let mut project = Project::default();
+    project.volume.path = vec![soot.clone()];
+    let mut harness = tall_window(project);
+    let open = |harness: &mut Harness<'_, App>, entry: &str| {
+        harness.get_by_label("Recent").click();
+        harness.run_steps(3);
+        harness.get_by_role_and_label(Role::Button, entry).click();
+        harness.run_steps(3);
+        settle(harness);
+        job(harness).volume.sources.clone()
+    };
+    assert!(open(&mut harness, "Built-in flame").is_empty());
+    assert_eq!(open(&mut harness, "soot.txt"), [soot]);
+}
