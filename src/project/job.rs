@@ -154,13 +154,14 @@ impl Project {
         size: [u32; 2],
     ) -> Camera {
         let bounds = flame::world_bounds(volume, maps, placement);
-        let framing = Camera::framing(&bounds, f64::from(size[0]) / f64::from(size[1]));
         let set = &self.camera;
+        let fov_deg = set.fov_deg.unwrap_or(FRAMING_FOV_DEG);
+        let framing = Camera::framing(&bounds, f64::from(size[0]) / f64::from(size[1]), fov_deg);
         Camera {
             eye: set.eye.unwrap_or(framing.eye),
             target: set.target.unwrap_or(framing.target),
             up: set.up.unwrap_or(DVec3::Z),
-            fov_deg: set.fov_deg.unwrap_or(framing.fov_deg),
+            fov_deg,
         }
     }
 

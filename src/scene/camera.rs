@@ -44,7 +44,31 @@ pub enum CameraError {
 pub const FRAMING_FOV_DEG: f64 = 32.0;
 
 /// How much wider than the box a framing is, so that the flame does not touch the picture's edge.
-const FRAMING_MARGIN: f64 = 1.12;
+pub(super) const FRAMING_MARGIN: f64 = 1.12;
+
+/// Half the height of the frame that focal lengths are given for, mm: still film of 36 × 24 mm.
+const HALF_FRAME_MM: f64 = 12.0;
+
+/// Focal length in mm of a lens that sees the vertical field of view (degrees, 0 < fov < 180) on a frame of
+/// 36 × 24 mm.
+pub fn focal_length_mm(fov_deg: f64) -> f64 {
+    HALF_FRAME_MM / (0.5 * fov_deg).to_radians().tan()
+}
+
+/// Vertical field of view in degrees of a lens of this focal length (mm, above 0) on a frame of 36 × 24 mm.
+pub fn fov_deg(focal_length_mm: f64) -> f64 {
+    2.0 * (HALF_FRAME_MM / focal_length_mm).atan().to_degrees()
+}
+
+/// Middle and size of a box that may be flat or empty, with room for a camera to look at.
+pub(super) fn room_of(bounds: &Aabb) -> (DVec3, DVec3) {
+    let centre = if bounds.is_empty() {
+        DVec3::ZERO
+    } else {
+        bounds.centre()
+    };
+    (centre, bounds.size().max(DVec3::splat(1e-6)))
+}
 
 /// Half the height of the frame that focal lengths are given for, mm: still film of 36 × 24 mm.
 const HALF_FRAME_MM: f64 = 12.0;
@@ -74,22 +98,17 @@ pub struct View {
 
 impl Camera {
     /// A camera at the side of a box (looking along +y), that sees all of it in a picture of the given
-    /// width/height.
-    pub fn framing(bounds: &Aabb, aspect: f64) -> Self {
-        let (centre, size) = (bounds.centre(), bounds.size().max(DVec3::splat(1e-6)));
-        let centre = if bounds.is_empty() {
-            DVec3::ZERO
-        } else {
-            centre
-        };
-        let half_tan = (0.5 * FRAMING_FOV_DEG).to_radians().tan();
+    /// width/height with a vertical field of view in degrees.
+    pub fn framing(bounds: &Aabb, aspect: f64, fov_deg: f64) -> Self {
+        let (centre, size) = room_of(bounds);
+        let half_tan = (0.5 * fov_deg).to_radians().tan();
         let half_height = FRAMING_MARGIN * 0.5 * size.z.max(size.x / aspect);
         let distance = half_height / half_tan + 0.5 * size.y;
         Self {
             eye: centre - DVec3::Y * distance,
             target: centre,
             up: DVec3::Z,
-            fov_deg: FRAMING_FOV_DEG,
+            fov_deg,
         }
     }
 
@@ -98,6 +117,24 @@ impl Camera {
     /// # Errors
     /// [`CameraError`] names the first thing that keeps the camera from seeing.
     pub fn view(&self, size: [u32; 2]) -> Result<View, CameraError> {
+        let [forward, right, up] = self.basis()?;
+        let half_height = (0.5 * self.fov_deg).to_radians().tan();
+        let half_width = half_height * f64::from(size[0]) / f64::from(size[1]);
+        Ok(View {
+            eye: self.eye,
+            forward,
+            right,
+            up,
+            half: [half_width, half_height],
+            size,
+        })
+    }
+
+    /// Unit vectors forward, right and up of the picture.
+    ///
+    /// # Errors
+    /// [`CameraError`] names the first thing that keeps the camera from seeing.
+    pub(super) fn basis(&self) -> Result<[DVec3; 3], CameraError> {
         if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
             return Err(CameraError::NotFinite);
         }
@@ -112,17 +149,7 @@ impl Camera {
             return Err(CameraError::NoUp);
         }
         let right = sideways.normalize();
-        let half_height = (0.5 * self.fov_deg).to_radians().tan();
-        let half_width = half_height * f64::from(size[0]) / f64::from(size[1]);
-        let up = right.cross(forward);
-        Ok(View {
-            eye: self.eye,
-            forward,
-            right,
-            up,
-            half: [half_width, half_height],
-            size,
-        })
+        Ok([forward, right, right.cross(forward)])
     }
 }
 
@@ -172,15 +199,28 @@ mod tests {
             max: DVec3::new(0.5, 3.0, 4.0),
         };
         for aspect in [0.3, 1.0, 16.0 / 9.0] {
-            let camera = Camera::framing(&bounds, aspect);
-            let forward = (camera.target - camera.eye).normalize();
-            let half = (0.5 * camera.fov_deg).to_radians().tan();
-            for corner in bounds.corners() {
-                let to = corner - camera.eye;
-                let depth = to.dot(forward);
-                assert!((to.z - forward.z * depth).abs() / depth <= half);
-                assert!((to.x - forward.x * depth).abs() / depth <= half * aspect);
+            for fov_deg in [FRAMING_FOV_DEG, 10.0, 100.0] {
+                let camera = Camera::framing(&bounds, aspect, fov_deg);
+                assert_eq!(camera.fov_deg, fov_deg);
+                let forward = (camera.target - camera.eye).normalize();
+                let half = (0.5 * camera.fov_deg).to_radians().tan();
+                for corner in bounds.corners() {
+                    let to = corner - camera.eye;
+                    let depth = to.dot(forward);
+                    assert!((to.z - forward.z * depth).abs() / depth <= half);
+                    assert!((to.x - forward.x * depth).abs() / depth <= half * aspect);
+                }
             }
+        }
+    }
+
+    #[test]
+    fn a_lens_and_its_field_of_view_are_two_names_of_one_thing() {
+        // A right angle on a frame 24 mm high, and the usual lens of the box that framings are based on.
+        assert!((focal_length_mm(90.0) - 12.0).abs() < 1e-12);
+        assert!((fov_deg(50.0) - 26.991_466).abs() < 1e-6);
+        for mm in [8.0, 24.0, 50.0, 400.0] {
+            assert!((focal_length_mm(fov_deg(mm)) - mm).abs() < 1e-9 * mm);
         }
     }
 
@@ -192,6 +232,7 @@ mod tests {
                 max: DVec3::ONE,
             },
             1.0,
+            FRAMING_FOV_DEG,
         );
         let size = [8, 8];
         assert_eq!(

@@ -6,6 +6,7 @@
 
 mod air;
 pub mod camera;
+mod camera_moves;
 mod fit;
 pub mod flame;
 pub mod fuel;
