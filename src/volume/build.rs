@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::grid::{Border, Brick, Grid};
 use super::lattice::{BRICK_EDGE, BRICK_LEN, IndexBox, brick_key, offset_in_brick};
+use super::watch::{Stretch, Watch};
 
 /// What is known about a grid before its values are.
 #[derive(Clone, Debug)]
@@ -199,9 +200,12 @@ impl Grid {
     }
 
     /// A dense box of samples, `sample(voxel)` for 0 ≤ voxel < dims; the calls run in parallel.
+    ///
+    /// Once the watch is cancelled bricks are left out: whoever can cancel must check before using the grid.
     pub(super) fn from_box(
         head: GridHead,
         dims: IVec3,
+        stretch: Stretch,
         sample: impl Fn(IVec3) -> f32 + Sync,
     ) -> (Self, Tally) {
         let dims = dims.max(IVec3::ZERO);
@@ -211,11 +215,13 @@ impl Grid {
             .collect();
         let last = dims - IVec3::ONE;
         let (border, background) = (head.border, head.background);
+        let counter = stretch.counter(rows.len());
         let bricks = rows
             .into_par_iter()
             .flat_map_iter(|(y, z)| {
                 let sample = &sample;
-                (0..table.x).map(move |x| {
+                let width = if counter.goes_on() { table.x } else { 0 };
+                (0..width).map(move |x| {
                     let coordinate = IVec3::new(x, y, z);
                     let mut new = NewBrick::from_samples(coordinate, background, |voxel| {
                         voxel.cmple(last).all().then(|| sample(voxel))
@@ -249,7 +255,7 @@ impl Grid {
             background,
             stored_as: "computed",
         };
-        Self::from_box(head, dims, sample).0
+        Self::from_box(head, dims, Watch::default().whole(), sample).0
     }
 
     /// A dense grid from its samples, x fastest, then y, then z. Samples that are missing at the end of

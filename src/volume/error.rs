@@ -12,6 +12,9 @@ pub enum VolumeError {
     /// No path was given.
     #[error("no file was given: name one volume file, or several that belong together")]
     NoFiles,
+    /// A [`Watch`](super::Watch) was told to stop.
+    #[error("opening was cancelled before the volume was complete: open it again to have it")]
+    Cancelled,
     /// The operating system refused.
     #[error("{path}: cannot be read: {source}", path = path.display())]
     Io {

@@ -8,11 +8,14 @@ use glam::IVec3;
 
 use super::file_volume::FileVolume;
 use super::sniff::{Sniffed, sniff};
+use super::watch::{Stretch, Watch};
 use super::{Format, Grid, Limits, Metadata, Volume, VolumeError};
 use super::{openvdb, procedural, report_ascii, report_binary};
 
 /// Enough of a file to tell what it is.
 const HEAD_BYTES: u64 = 256;
+/// Share of the time that bringing bytes into memory takes.
+const READING: f32 = 0.2;
 
 /// Opens one file, or several that belong together, as one volume. What a file is, is told by its bytes.
 ///
@@ -24,14 +27,51 @@ const HEAD_BYTES: u64 = 256;
 /// Any [`VolumeError`]: each names the file, what was expected and found, and what to do. Nothing is allocated
 /// by the word of a header alone.
 pub fn open(paths: &[PathBuf], limits: &Limits) -> Result<Volume, VolumeError> {
-    let (first, rest) = paths.split_first().ok_or(VolumeError::NoFiles)?;
-    let mut parts = vec![read_file(first, limits)?];
-    for path in rest {
-        let part = read_file(path, limits)?;
+    open_watched(paths, limits, &Watch::default())
+}
+
+/// Opens files as [`open`] does, under the eyes of a watch. The share is over all files, by their bytes.
+///
+/// # Errors
+/// As [`open`]; and [`VolumeError::Cancelled`], whatever else is wrong, once the watch was cancelled.
+pub fn open_watched(
+    paths: &[PathBuf],
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Volume, VolumeError> {
+    let opened = open_together(paths, limits, watch);
+    // A reader that was stopped may have said so in words of its own.
+    watch.whole().check()?;
+    let volume = opened?;
+    watch.whole().reach(1, 1)?;
+    Ok(volume)
+}
+
+fn open_together(
+    paths: &[PathBuf],
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Volume, VolumeError> {
+    if paths.is_empty() {
+        return Err(VolumeError::NoFiles);
+    }
+    // What is wrong with a file is said when its turn comes.
+    let length = |path: &PathBuf| fs::metadata(path).map_or(0, |about| about.len());
+    let lengths: Vec<u64> = paths.iter().map(length).collect();
+    let all = lengths.iter().sum::<u64>().max(1) as f32;
+    let mut before_it = 0;
+    let mut parts: Vec<FileVolume> = Vec::with_capacity(paths.len());
+    for (path, length) in paths.iter().zip(lengths) {
+        let after_it = before_it + length;
+        let stretch = watch
+            .whole()
+            .part(before_it as f32 / all, after_it as f32 / all);
+        let part = read_file(path, limits, stretch)?;
         for before in &parts {
             check_together(before, &part)?;
         }
         parts.push(part);
+        before_it = after_it;
     }
     Ok(merge(parts))
 }
@@ -54,13 +94,31 @@ impl Volume {
     /// # Errors
     /// As [`open`] with all the files.
     pub fn with_file(&self, path: &Path, limits: &Limits) -> Result<Self, VolumeError> {
+        self.with_file_watched(path, limits, &Watch::default())
+    }
+
+    /// As [`Volume::with_file`], under the eyes of a watch.
+    ///
+    /// # Errors
+    /// As [`open_watched`] with all the files.
+    pub fn with_file_watched(
+        &self,
+        path: &Path,
+        limits: &Limits,
+        watch: &Watch,
+    ) -> Result<Self, VolumeError> {
         let mut paths = self.sources.clone();
         paths.push(path.to_owned());
-        open(&paths, limits)
+        open_watched(&paths, limits, watch)
     }
 }
 
-fn read_file(path: &Path, limits: &Limits) -> Result<FileVolume, VolumeError> {
+fn read_file(
+    path: &Path,
+    limits: &Limits,
+    stretch: Stretch,
+) -> Result<FileVolume, VolumeError> {
+    stretch.check()?;
     let io = |source| VolumeError::Io {
         path: path.to_owned(),
         source,
@@ -93,16 +151,22 @@ fn read_file(path: &Path, limits: &Limits) -> Result<FileVolume, VolumeError> {
             found,
             advice,
         }),
-        Sniffed::OpenVdb => openvdb::read(path, &bytes, about.len(), limits),
+        Sniffed::OpenVdb => openvdb::read(path, &bytes, about.len(), limits, stretch),
         text_or_binary => {
+            let (reading, making) = (
+                stretch.part(0.0, READING),
+                stretch.part(READING, 1.0),
+            );
             // The file may have grown since its length was asked for.
-            file.take(limits.max_bytes)
+            reading
+                .reader(file, about.len())
+                .take(limits.max_bytes)
                 .read_to_end(&mut bytes)
                 .map_err(io)?;
             if text_or_binary == Sniffed::Text {
-                report_ascii::read(path, &bytes, limits)
+                report_ascii::read(path, &bytes, limits, making)
             } else {
-                report_binary::read(path, &bytes, limits)
+                report_binary::read(path, &bytes, limits, making)
             }
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! [`open`] recognises a file by its bytes and gives a [`Volume`] of named [`Grid`]s in the units of the
 //! file. [`recognise()`] guesses who wrote it and [`preset()`] proposes the mapping to soot volume fraction,
-//! flame and kelvin, with everything it had to assume in words. [`summarise`] says all of it as data.
+//! flame and kelvin, with everything it had to assume in words. [`summarise`] says all of it as data. A
+//! [`Watch`] shows how far [`open_watched`] is, and cancels it.
 
 mod build;
 mod build_sparse;
@@ -15,6 +16,7 @@ mod limits;
 mod load;
 mod naming;
 mod openvdb;
+mod openvdb_archive;
 mod openvdb_tree;
 mod preset;
 pub mod procedural;
@@ -24,6 +26,7 @@ mod report_binary;
 mod sniff;
 mod summary;
 mod text;
+mod watch;
 
 use std::path::PathBuf;
 
@@ -34,11 +37,12 @@ pub use field::{
 pub use grid::{Border, BrickRef, Grid};
 pub use lattice::{BRICK_EDGE, BRICK_LEN, IndexBox, brick_of};
 pub use limits::Limits;
-pub use load::{open, open_or_built_in};
+pub use load::{open, open_or_built_in, open_watched};
 pub use naming::figures;
 pub use preset::{GLOW_K, PEAK_K, mapping, preset};
 pub use recognise::recognise;
 pub use summary::{GridSummary, MappedField, Summary, summarise};
+pub use watch::Watch;
 
 /// A file format, told by the bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,20 +11,24 @@ use std::path::Path;
 
 use glam::{DAffine3, DMat3, DVec3};
 use openvdb_rs::grid::{AnyGrid, GridClass};
-use openvdb_rs::io::{Error as VdbError, File, GridDescriptor, GridMetadata};
+use openvdb_rs::io::{Error as VdbError, GridDescriptor, GridMetadata};
 use openvdb_rs::math::Vec3d;
 use openvdb_rs::metadata::MetaMap;
 
 use super::build::GridHead;
 use super::file_volume::FileVolume;
 use super::grid::Border;
+use super::openvdb_archive::Archive;
 use super::openvdb_tree;
+use super::watch::Stretch;
 use super::{Format, Limits, Metadata, SkippedGrid, VolumeError};
 
 /// Where the header says whether grid offsets follow. Without them the whole file is read at once.
 const HAS_OFFSETS_AT: usize = 20;
 /// Such a file must fit the limit even after it has grown in memory.
 const STREAM_GROWTH: u64 = 64;
+/// Share of the time that the third-party reader takes; the rest is building bricks.
+const READING: f32 = 0.7;
 
 /// Reads the scalar grids of a file whose length and first bytes are known.
 pub(super) fn read(
@@ -32,6 +36,7 @@ pub(super) fn read(
     head: &[u8],
     length: u64,
     limits: &Limits,
+    stretch: Stretch,
 ) -> Result<FileVolume, VolumeError> {
     let is_stream = head.get(HAS_OFFSETS_AT) == Some(&0);
     if is_stream {
@@ -40,9 +45,11 @@ pub(super) fn read(
     }
     let reader = Reader {
         path,
+        head,
         length,
         is_stream,
         limits: *limits,
+        stretch,
     };
     catch_unwind(AssertUnwindSafe(|| reader.read()))
         .unwrap_or_else(|_| Err(reader.damaged("its contents made the OpenVDB reader fail")))
@@ -50,21 +57,39 @@ pub(super) fn read(
 
 struct Reader<'a> {
     path: &'a Path,
+    head: &'a [u8],
     length: u64,
     is_stream: bool,
     limits: Limits,
+    stretch: Stretch<'a>,
 }
 
 impl Reader<'_> {
     fn read(&self) -> Result<FileVolume, VolumeError> {
-        let file = File::open(self.path).map_err(|error| self.vdb_error(&error))?;
+        let (whole, grids) = if self.is_stream {
+            (self.stretch.part(0.0, READING), self.stretch.part(READING, 1.0))
+        } else {
+            (self.stretch.part(0.0, 0.0), self.stretch)
+        };
+        let file = if self.is_stream {
+            Archive::open_stream(self.path, self.length, whole)
+        } else {
+            Archive::open(self.path, self.head)
+        };
+        let file = file.map_err(|error| self.vdb_error(&error))?;
         let mut volume = FileVolume::new(self.path, Format::OpenVdb);
         volume.metadata = metadata(file.metadata());
         self.check_offsets(file.descriptors(), &mut volume.notes)?;
 
         let mut left = self.limits;
         let mut taken = HashSet::new();
+        let all = file.descriptors().iter().map(cost).sum::<u64>().max(1) as f32;
+        let mut after_it = 0;
         for descriptor in file.descriptors() {
+            let before_it = after_it;
+            after_it += cost(descriptor);
+            let stretch = grids.part(before_it as f32 / all, after_it as f32 / all);
+            stretch.check()?;
             let name = printable(&descriptor.grid_name);
             let read = self.usable(&file, descriptor, &taken, &mut volume.metadata)?;
             let (transform, announced) = match read {
@@ -75,8 +100,10 @@ impl Reader<'_> {
                 }
             };
             left.check_bytes(self.path, &format!("grid {name}"), announced)?;
+            let built_from = if self.is_stream { 0.0 } else { READING };
+            let building = stretch.part(built_from, 1.0);
             let any = file
-                .read_grid(&descriptor.unique_name)
+                .grid(descriptor, stretch.part(0.0, built_from))
                 .map_err(|error| self.vdb_error(&error))?;
             let head = GridHead {
                 name,
@@ -85,12 +112,12 @@ impl Reader<'_> {
                 background: 0.0,
                 stored_as: stored_as(descriptor),
             };
-            let (grid, tally) = match &any {
+            let (grid, tally) = match any.as_ref() {
                 AnyGrid::Float(g) => {
-                    openvdb_tree::bricks(self.path, head, g.tree(), |value| value, &left)?
+                    openvdb_tree::bricks(self.path, head, g.tree(), |value| value, &left, building)?
                 }
                 AnyGrid::Double(g) => {
-                    openvdb_tree::bricks(self.path, head, g.tree(), |value| value as f32, &left)?
+                    openvdb_tree::bricks(self.path, head, g.tree(), |value| value as f32, &left, building)?
                 }
                 _ => return Err(self.damaged(&format!("grid {} changed its type", head.name))),
             };
@@ -154,7 +181,7 @@ impl Reader<'_> {
     /// The transform and announced size of a scalar grid, or the reason to pass it over.
     fn usable(
         &self,
-        file: &File,
+        file: &Archive,
         descriptor: &GridDescriptor,
         taken: &HashSet<String>,
         metadata: &mut Metadata,
@@ -169,7 +196,7 @@ impl Reader<'_> {
                 )));
             }
         };
-        if !matches!(kind, "float" | "double") {
+        if !is_scalar(kind) {
             return Ok(Err(format!("values are {kind}, not scalar floats")));
         }
         if taken.contains(&descriptor.grid_name) {
@@ -179,7 +206,7 @@ impl Reader<'_> {
             return Ok(Err(reason));
         }
         let grid = file
-            .read_grid_metadata(&descriptor.unique_name)
+            .grid_metadata(descriptor)
             .map_err(|error| self.vdb_error(&error))?;
         if metadata.creator.is_none() {
             metadata.creator = grid.metadata.get_str("creator").map(printable);
@@ -218,10 +245,23 @@ impl Reader<'_> {
     }
 }
 
+fn is_scalar(value_type: &str) -> bool {
+    matches!(value_type, "float" | "double")
+}
+
+/// What reading a grid costs against the others of its file: its bytes, or 1 for each where the file does not tell.
+fn cost(descriptor: &GridDescriptor) -> u64 {
+    if descriptor.value_type().is_some_and(is_scalar) {
+        descriptor.end_pos.abs_diff(descriptor.grid_pos).max(1)
+    } else {
+        0
+    }
+}
+
 const DUPLICATE: &str = "a grid of the same name came before it";
 
 /// Why a grid that borrows the tree of another cannot be read. A chain of borrowers could be a circle.
-fn bad_instance(file: &File, descriptor: &GridDescriptor) -> Option<String> {
+fn bad_instance(file: &Archive, descriptor: &GridDescriptor) -> Option<String> {
     if !descriptor.is_instance() {
         return None;
     }

@@ -11,18 +11,21 @@ use rayon::prelude::*;
 use super::build::{GridHead, NewBrick, Tally, is_usable};
 use super::grid::Grid;
 use super::lattice::{BRICK_EDGE, BRICK_LEN, IndexBox, MAX_COORDINATE};
+use super::watch::Stretch;
 use super::{Limits, VolumeError};
 
 /// The grid of a tree: active voxels of leaves, and active tiles of every level.
 ///
 /// # Errors
-/// A box or a number of bricks beyond the limits, before anything of that size is allocated.
+/// A box or a number of bricks beyond the limits, before anything of that size is allocated;
+/// [`VolumeError::Cancelled`].
 pub(super) fn bricks<T: Value>(
     path: &Path,
     mut head: GridHead,
     tree: &Tree<T>,
     to_f32: impl Fn(T) -> f32 + Sync,
     left: &Limits,
+    stretch: Stretch,
 ) -> Result<(Grid, Tally), VolumeError> {
     let background = to_f32(*tree.background());
     head.background = if is_usable(background) {
@@ -79,18 +82,23 @@ pub(super) fn bricks<T: Value>(
         .saturating_add(dense);
     left.check_bytes(path, &what, needed)?;
 
+    let counter = stretch.counter(leaves.len());
     let mut bricks: Vec<NewBrick> = leaves
         .into_par_iter()
         .map(|(coordinate, leaf)| {
-            NewBrick::from_samples(coordinate, background, |voxel| {
+            if !counter.goes_on() {
+                return Err(VolumeError::Cancelled);
+            }
+            Ok(NewBrick::from_samples(coordinate, background, |voxel| {
                 let offset = LeafNode::<T>::coord_to_offset(&Coord::new(voxel.x, voxel.y, voxel.z));
                 leaf.is_value_on_at(offset)
                     .then(|| to_f32(*leaf.get_value_at(offset)))
-            })
+            }))
         })
-        .collect();
+        .collect::<Result<_, _>>()?;
     for (origin, edge, value) in tiles {
         for z in 0..edge {
+            stretch.check()?;
             for y in 0..edge {
                 for x in 0..edge {
                     let coordinate = origin + IVec3::new(x, y, z);

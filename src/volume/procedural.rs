@@ -12,7 +12,8 @@
 use glam::{DAffine3, DVec3, IVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Border, Grid, Volume};
+use super::watch::{Stretch, Watch};
+use super::{Border, Grid, Volume, VolumeError};
 
 /// Voxels of the grid.
 const DIMS: IVec3 = IVec3::new(72, 72, 152);
@@ -34,12 +35,29 @@ const EDDY_M: f32 = 0.036;
 const CURL_M: f32 = 0.010;
 /// Most soot, volume fraction: a propane torch.
 const PEAK_SOOT: f32 = 3.0e-6;
+/// Share of the time that the mixture takes; the rest is building bricks, which is too quick to watch.
+const MIXING: f32 = 0.95;
 /// Air and flame, K.
 const AIR_K: f32 = 300.0;
 const FLAME_K: f32 = 1950.0;
 
 /// The built-in flame: soot volume fraction and kelvin, z up, metres, standing on the origin.
 pub fn torch() -> Volume {
+    make(Watch::default().whole())
+}
+
+/// [`torch`] under the eyes of a watch.
+///
+/// # Errors
+/// [`VolumeError::Cancelled`].
+pub fn torch_watched(watch: &Watch) -> Result<Volume, VolumeError> {
+    let volume = make(watch.whole());
+    watch.whole().reach(1, 1)?;
+    Ok(volume)
+}
+
+/// The torch; once the watch is cancelled parts of it are left out.
+fn make(stretch: Stretch) -> Volume {
     let corner = DVec3::new(-0.5 * f64::from(DIMS.x), -0.5 * f64::from(DIMS.y), 0.0) + 0.5;
     let world_from_index =
         DAffine3::from_scale(DVec3::splat(VOXEL_M)) * DAffine3::from_translation(corner);
@@ -47,10 +65,12 @@ pub fn torch() -> Volume {
     let rows: Vec<(i32, i32)> = (0..DIMS.z)
         .flat_map(|z| (0..DIMS.y).map(move |y| (y, z)))
         .collect();
+    let counter = stretch.part(0.0, MIXING).counter(rows.len());
     let (soot, kelvin): (Vec<f32>, Vec<f32>) = rows
         .par_iter()
         .flat_map_iter(|&(y, z)| {
-            (0..DIMS.x).map(move |x| {
+            let width = if counter.goes_on() { DIMS.x } else { 0 };
+            (0..width).map(move |x| {
                 let point = world_from_index
                     .transform_point3(IVec3::new(x, y, z).as_dvec3())
                     .as_vec3();

@@ -14,10 +14,16 @@ use super::file_volume::FileVolume;
 use super::grid::{Border, Grid};
 use super::naming::NamedField;
 use super::text::{Text, quote, voxel_count};
+use super::watch::Stretch;
 use super::{Format, Limits, VolumeError};
 
 /// Fewest bytes of a value in the file: a digit and the space that parts it from the next.
 const MIN_BYTES_PER_VALUE: u64 = 2;
+/// How many values are read between two looks at the watch.
+const VALUES_PER_CHECK: usize = 4096;
+/// Shares of the time after reading that parsing takes; the rest is building bricks.
+const PARSING_DENSE: f32 = 0.7;
+const PARSING_SPARSE: f32 = 0.7;
 
 /// Voxel i sits at i + ½ of the box that begins at the origin.
 pub(super) fn centred_voxels() -> DAffine3 {
@@ -25,7 +31,12 @@ pub(super) fn centred_voxels() -> DAffine3 {
 }
 
 /// Reads either ASCII format from the contents of a file.
-pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<FileVolume, VolumeError> {
+pub(super) fn read(
+    path: &Path,
+    bytes: &[u8],
+    limits: &Limits,
+    stretch: Stretch,
+) -> Result<FileVolume, VolumeError> {
     let mut text = Text { path, bytes, at: 0 };
     let mut notes = Vec::new();
     if bytes.starts_with(b"\xef\xbb\xbf") {
@@ -34,9 +45,15 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<FileVol
     }
     let header = text.header()?;
     let mut file = match header.as_slice() {
-        [w, h, d] => dense(&mut text, [*w, *h, *d], limits)?,
+        [w, h, d] => dense(&mut text, [*w, *h, *d], limits, stretch)?,
         [w, h, d, count, background] => {
-            sparse(&mut text, [*w, *h, *d, *count], background, limits)?
+            sparse(
+                &mut text,
+                [*w, *h, *d, *count],
+                background,
+                limits,
+                stretch,
+            )?
         }
         _ => {
             let found = header.len();
@@ -54,7 +71,12 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<FileVol
     Ok(file)
 }
 
-fn dense(text: &mut Text, dims: [&[u8]; 3], limits: &Limits) -> Result<FileVolume, VolumeError> {
+fn dense(
+    text: &mut Text,
+    dims: [&[u8]; 3],
+    limits: &Limits,
+    stretch: Stretch,
+) -> Result<FileVolume, VolumeError> {
     let dims = text.dims(dims, limits)?;
     let count = voxel_count(dims);
     // The announced size is compared with the bytes that are there before anything of that size is allocated.
@@ -64,8 +86,12 @@ fn dense(text: &mut Text, dims: [&[u8]; 3], limits: &Limits) -> Result<FileVolum
         return Err(text.wrong_count(dims, &format!("at most {most}, the file ends there")));
     }
     limits.check_bytes(text.path, "the dense box", count.saturating_mul(4))?;
+    let parsing = stretch.part(0.0, PARSING_DENSE);
     let mut values: Vec<f32> = Vec::with_capacity(count as usize);
     while let Some((at, token)) = text.next_token() {
+        if values.len() % VALUES_PER_CHECK == 0 {
+            parsing.reach(at as u64, text.bytes.len() as u64)?;
+        }
         if values.len() as u64 == count {
             let rest = text.count_tokens() + 1;
             return Err(text.wrong_count(dims, &format!("{}", count + rest)));
@@ -84,9 +110,11 @@ fn dense(text: &mut Text, dims: [&[u8]; 3], limits: &Limits) -> Result<FileVolum
         background: 0.0,
         stored_as: "ascii",
     };
-    let (grid, tally) = Grid::from_box(head, dims, |voxel| {
+    let building = stretch.part(PARSING_DENSE, 1.0);
+    let (grid, tally) = Grid::from_box(head, dims, building, |voxel| {
         dense_sample(&values, dims, voxel).unwrap_or(0.0)
     });
+    stretch.check()?;
     let mut notes = vec![field.reason];
     notes.extend(tally.notes(field.name, 0.0));
     Ok(FileVolume::of_one_field(
@@ -103,6 +131,7 @@ fn sparse(
     [w, h, d, count]: [&[u8]; 4],
     background: &[u8],
     limits: &Limits,
+    stretch: Stretch,
 ) -> Result<FileVolume, VolumeError> {
     let header_at = text.at;
     let dims = text.dims([w, h, d], limits)?;
@@ -117,8 +146,12 @@ fn sparse(
         ));
     }
     limits.check_bytes(text.path, "the voxel list", count.saturating_mul(16))?;
+    let parsing = stretch.part(0.0, PARSING_SPARSE);
     let mut voxels = Vec::with_capacity(count as usize);
     while let Some((at, first)) = text.next_token() {
+        if voxels.len() % VALUES_PER_CHECK == 0 {
+            parsing.reach(at as u64, text.bytes.len() as u64)?;
+        }
         let mut coordinate = [0i32; 3];
         let mut token = Some((at, first));
         for (axis, c) in coordinate.iter_mut().enumerate() {
@@ -170,7 +203,8 @@ fn sparse(
         background,
         stored_as: "ascii",
     };
-    let (grid, tally, repeated) = Grid::from_voxels(head, voxels, text.path, limits)?;
+    let building = stretch.part(PARSING_SPARSE, 1.0);
+    let (grid, tally, repeated) = Grid::from_voxels(head, voxels, text.path, limits, building)?;
     let mut notes = vec![field.reason];
     notes.extend(tally.notes(field.name, background));
     notes.extend(super::build_sparse::repeated_note(repeated));

@@ -16,9 +16,16 @@ use super::grid::{Border, Grid};
 use super::lattice::MAX_COORDINATE;
 use super::naming::NamedField;
 use super::report_ascii::{centred_voxels, largest_usable};
+use super::watch::Stretch;
 use super::{Format, Limits, VolumeError};
 
 const RECORD_BYTES: usize = 44;
+/// How many records are read between two looks at the watch.
+const RECORDS_PER_CHECK: usize = 4096;
+/// Shares of the time after reading at which the largest channel is known, and all voxels are in a list; the rest
+/// is building bricks.
+const SCANNED: f32 = 0.1;
+const LISTED: f32 = 0.3;
 /// Records as other programs write them by mistake: with the mistake's name.
 const WRONG_RECORDS: [(i64, &str); 3] = [
     (28, "colours as 4-byte floats"),
@@ -34,20 +41,40 @@ pub(super) fn announced_length(head: &[u8]) -> Option<u64> {
 }
 
 /// Reads the contents of a file.
-pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<FileVolume, VolumeError> {
+pub(super) fn read(
+    path: &Path,
+    bytes: &[u8],
+    limits: &Limits,
+    stretch: Stretch,
+) -> Result<FileVolume, VolumeError> {
     let records = records(path, bytes)?;
     limits.check_bytes(path, "the voxel list", records.len() as u64)?;
     // The largest channel says what the file is; which channel is the value depends on that.
     let rgb = |record: &[u8]| [f64_at(record, 12), f64_at(record, 20), f64_at(record, 28)];
     let strongest =
         |record: &[u8]| rgb(record).into_iter().fold(f64::NEG_INFINITY, f64::max) as f32;
-    let largest = largest_usable(records.chunks_exact(RECORD_BYTES).map(strongest));
+    let (scanning, listing) = (stretch.part(0.0, SCANNED), stretch.part(SCANNED, LISTED));
+    let reach = |stretch: Stretch, index: usize| {
+        if index % RECORDS_PER_CHECK == 0 {
+            stretch.reach((index * RECORD_BYTES) as u64, records.len() as u64)
+        } else {
+            Ok(())
+        }
+    };
+    let scanned = records.chunks_exact(RECORD_BYTES).enumerate();
+    let scanned = scanned.map_while(|(index, record)| {
+        let goes_on = reach(scanning, index).is_ok();
+        goes_on.then(|| strongest(record))
+    });
+    let largest = largest_usable(scanned);
+    stretch.check()?;
     let field = NamedField::decide(path, largest);
     let is_temperature = field.name == "temperature";
 
     let mut voxels = Vec::with_capacity(records.len() / RECORD_BYTES);
     let mut coloured = 0u64;
     for (index, record) in records.chunks_exact(RECORD_BYTES).enumerate() {
+        reach(listing, index)?;
         let voxel = [0, 4, 8].map(|at| i32_at(record, at));
         if voxel.iter().any(|c| i64::from(*c).abs() > MAX_COORDINATE) {
             let [x, y, z] = voxel;
@@ -77,7 +104,8 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<FileVol
         background,
         stored_as: "double",
     };
-    let (grid, tally, repeated) = Grid::from_voxels(head, voxels, path, limits)?;
+    let building = stretch.part(LISTED, 1.0);
+    let (grid, tally, repeated) = Grid::from_voxels(head, voxels, path, limits, building)?;
     let mut notes = vec![field.reason];
     if coloured > 0 {
         let channel = if is_temperature {
