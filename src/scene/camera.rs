@@ -70,20 +70,6 @@ pub(super) fn room_of(bounds: &Aabb) -> (DVec3, DVec3) {
     (centre, bounds.size().max(DVec3::splat(1e-6)))
 }
 
-/// Half the height of the frame that focal lengths are given for, mm: still film of 36 × 24 mm.
-const HALF_FRAME_MM: f64 = 12.0;
-
-/// Focal length in mm of a lens that sees the vertical field of view (degrees, 0 < fov < 180) on a frame of
-/// 36 × 24 mm.
-pub fn focal_length_mm(fov_deg: f64) -> f64 {
-    HALF_FRAME_MM / (0.5 * fov_deg).to_radians().tan()
-}
-
-/// Vertical field of view in degrees of a lens of this focal length (mm, above 0) on a frame of 36 × 24 mm.
-pub fn fov_deg(focal_length_mm: f64) -> f64 {
-    2.0 * (HALF_FRAME_MM / focal_length_mm).atan().to_degrees()
-}
-
 /// An orthonormal basis of the picture: forward, right, up.
 #[derive(Debug, Clone, Copy)]
 pub struct View {

@@ -47,11 +47,7 @@ pub fn open_watched(
     Ok(volume)
 }
 
-fn open_together(
-    paths: &[PathBuf],
-    limits: &Limits,
-    watch: &Watch,
-) -> Result<Volume, VolumeError> {
+fn open_together(paths: &[PathBuf], limits: &Limits, watch: &Watch) -> Result<Volume, VolumeError> {
     if paths.is_empty() {
         return Err(VolumeError::NoFiles);
     }
@@ -113,11 +109,7 @@ impl Volume {
     }
 }
 
-fn read_file(
-    path: &Path,
-    limits: &Limits,
-    stretch: Stretch,
-) -> Result<FileVolume, VolumeError> {
+fn read_file(path: &Path, limits: &Limits, stretch: Stretch) -> Result<FileVolume, VolumeError> {
     stretch.check()?;
     let io = |source| VolumeError::Io {
         path: path.to_owned(),
@@ -153,10 +145,7 @@ fn read_file(
         }),
         Sniffed::OpenVdb => openvdb::read(path, &bytes, about.len(), limits, stretch),
         text_or_binary => {
-            let (reading, making) = (
-                stretch.part(0.0, READING),
-                stretch.part(READING, 1.0),
-            );
+            let (reading, making) = (stretch.part(0.0, READING), stretch.part(READING, 1.0));
             // The file may have grown since its length was asked for.
             reading
                 .reader(file, about.len())

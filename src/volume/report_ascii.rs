@@ -47,13 +47,7 @@ pub(super) fn read(
     let mut file = match header.as_slice() {
         [w, h, d] => dense(&mut text, [*w, *h, *d], limits, stretch)?,
         [w, h, d, count, background] => {
-            sparse(
-                &mut text,
-                [*w, *h, *d, *count],
-                background,
-                limits,
-                stretch,
-            )?
+            sparse(&mut text, [*w, *h, *d, *count], background, limits, stretch)?
         }
         _ => {
             let found = header.len();

@@ -152,8 +152,7 @@ impl<'a> Stretch<'a> {
 
     fn tell(self, done: u64, all: u64) {
         let share = done.min(all) as f32 / all.max(1) as f32;
-        self.watch
-            .reach(self.from + share * (self.to - self.from));
+        self.watch.reach(self.from + share * (self.to - self.from));
     }
 }
 

@@ -1,0 +1,90 @@
+//! How soon a picture answers a slider: from `submit` to the first whole coarse pass, drained, while the picture
+//! before it is still being rendered.
+//!
+//! ```text
+//! cargo bench --bench restart
+//! ```
+//!
+//! With `SOOTLIGHT_SHARED` on the standard plume and a pool fire as well. Times of a shared machine vary: compare
+//! only what one run printed.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use sootlight::engine::{Engine, News, Picture};
+use sootlight::project::{Job, Project};
+use sootlight::volume::{self, Limits, Volume};
+
+/// How many times the slider moves.
+const MOVES: u32 = 120;
+/// Size of the picture.
+const SIZE: [u32; 2] = [1280, 720];
+
+fn main() {
+    let flame = [("built-in flame", Vec::new())];
+    let shared = std::env::var_os("SOOTLIGHT_SHARED").map(PathBuf::from);
+    let shared = shared.iter().flat_map(|shared| {
+        [
+            ("plume", "data/plume/plume.vdb"),
+            ("pool fire", "data/pool/pool_0022_zip_half.vdb"),
+        ]
+        .map(|(name, file)| (name, vec![shared.join(file)]))
+    });
+    println!(
+        "{MOVES} moves of a slider at {} × {}, from submit to the first whole pass:",
+        SIZE[0], SIZE[1]
+    );
+    for (name, files) in flame.into_iter().chain(shared) {
+        match volume::open_or_built_in(&files, &Limits::default()) {
+            Ok(volume) => measure(name, &Arc::new(volume)),
+            Err(error) => println!("  {name}: {error}"),
+        }
+    }
+}
+
+fn measure(name: &str, volume: &Arc<Volume>) {
+    let mut project = Project::default();
+    project.render.size = SIZE;
+    let (engine, mut picture) =
+        match Engine::new(Engine::threads_beside_a_window(), Box::new(|| {})) {
+            Ok(engine) => (engine, Picture::new(SIZE)),
+            Err(error) => return println!("  {name}: {error}"),
+        };
+    let mut times: Vec<f64> = Vec::new();
+    for i in 0..MOVES {
+        project.soot.amount = 1.0 + 0.01 * f64::from(i);
+        let Ok(job) = project.job(volume) else {
+            return println!("  {name}: cannot be rendered");
+        };
+        times.push(first_pass(&engine, &mut picture, job));
+        // The next move comes while finer passes run.
+        std::thread::sleep(Duration::from_millis(u64::from(i % 5) * 20));
+    }
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| times[((times.len() - 1) as f64 * share).round() as usize];
+    println!(
+        "  {name:<16} median {:5.1} ms, 90 % {:5.1} ms, 99 % {:5.1} ms, longest {:5.1} ms",
+        at(0.5),
+        at(0.9),
+        at(0.99),
+        at(1.0)
+    );
+}
+
+/// Milliseconds until the picture shows the first pass of this job.
+fn first_pass(engine: &Engine, picture: &mut Picture, job: Job) -> f64 {
+    let begun = Instant::now();
+    engine.submit(job);
+    loop {
+        let mut whole = false;
+        for update in engine.drain() {
+            whole |= matches!(update.news, News::PassDone { index: 0, .. });
+            picture.take(update);
+        }
+        if whole {
+            return 1e3 * begun.elapsed().as_secs_f64();
+        }
+        std::thread::sleep(Duration::from_micros(200));
+    }
+}
