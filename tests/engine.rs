@@ -93,6 +93,31 @@ fn no_stale_tile_lands_in_two_hundred_restarts() {
 }
 
 #[test]
+fn a_storm_of_submits_that_nobody_drains_queues_nothing() {
+    let (engine, _) = engine();
+    let size = [256, 256];
+    let mut newest = None;
+    for number in 0..300 {
+        newest = Some(engine.submit(numbered(number % 7, size)));
+        std::thread::sleep(Duration::from_micros(u64::from(number % 5) * 300));
+    }
+    let mut picture = Picture::new(size);
+    let begun = Instant::now();
+    let (mut started, mut tiles) = (0, 0);
+    while !picture.progress.finished {
+        for update in engine.drain() {
+            assert_eq!(Some(update.generation), newest);
+            started += usize::from(matches!(update.news, News::Started { .. }));
+            tiles += usize::from(matches!(update.news, News::Tile(_)));
+            picture.take(update);
+        }
+        assert!(begun.elapsed() < PATIENCE);
+    }
+    // 256 × 256 pixels at strides 8, 4, 2 and 1 in tiles of 32 × 32 rays.
+    assert_eq!((started, tiles), (1, 1 + 4 + 16 + 64));
+}
+
+#[test]
 fn the_old_picture_stays_until_the_first_pass_of_the_new_one_is_whole() {
     let (engine, _) = engine();
     let size = [120, 160];

@@ -2,6 +2,7 @@
 
 use sootlight::physics::soot::SootModel;
 use sootlight::project::Job;
+use sootlight::render::{Cancel, render_still};
 use sootlight::scene::Fuel;
 use sootlight::volume::Producer;
 
@@ -234,4 +235,35 @@ fn what_was_open_before_and_the_built_in_flame_can_be_opened_again() {
     };
     assert!(open(&mut harness, "Built-in flame").is_empty());
     assert_eq!(open(&mut harness, "soot.txt"), [soot]);
+}
+
+#[test]
+fn a_drag_under_full_load_stays_live_and_ends_at_the_last_job() {
+    let mut harness = Harness::builder()
+        .with_size([1280.0, 800.0])
+        .build_eframe(|creation| {
+            App::new(creation, Project::default()).expect("the system gives threads")
+        });
+    settle(&mut harness);
+    let mut seen = std::collections::BTreeSet::new();
+    for i in 0..120 {
+        harness.state_mut().document_mut().project.soot.amount = 0.5 + 0.02 * f64::from(i);
+        harness.run_steps(1);
+        std::thread::sleep(Duration::from_millis(8));
+        let app = harness.state();
+        assert_eq!(
+            app.job().expect("a job").flame.soot_amount,
+            0.5 + 0.02 * f64::from(i)
+        );
+        seen.insert(app.picture().version);
+    }
+    assert!(
+        seen.len() > 10,
+        "the picture stood still: {} versions",
+        seen.len()
+    );
+    settle(&mut harness);
+    let last = job(&harness);
+    let still = render_still(&last.scene(None), &last.settings, &Cancel::never(), &|_| {});
+    assert!(*harness.state().picture().film() == still.expect("not cancelled").film);
 }
