@@ -6,6 +6,7 @@
 
 mod canvas;
 mod document;
+mod exporter;
 mod files;
 mod meter;
 mod panels;
@@ -23,6 +24,7 @@ pub use document::{Document, FieldRow};
 pub use start::{AppError, run};
 
 use self::canvas::Canvas;
+use self::exporter::Exporter;
 use self::files::{Loader, Outcome, Request};
 use self::meter::Meter;
 use self::panels::{Command, Panels};
@@ -46,6 +48,7 @@ pub struct App {
     canvas_size: Option<[u32; 2]>,
     submitted: Option<Submitted>,
     loader: Loader,
+    exporter: Exporter,
     panels: Panels,
     /// What went wrong last, until it is dismissed.
     notice: Option<String>,
@@ -72,6 +75,8 @@ impl App {
         let tile_wake = Box::new(move || tile_wake.request_repaint_after(FRAME));
         let engine =
             Engine::new(Engine::threads_beside_a_window(), tile_wake).map_err(AppError::Threads)?;
+        let export_wake = ctx.clone();
+        let exporter = Exporter::new(Arc::new(move || export_wake.request_repaint()));
         let load_wake = ctx.clone();
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
         loader.begin(match project.volume.path.as_slice() {
@@ -87,6 +92,7 @@ impl App {
             canvas_size: None,
             submitted: None,
             loader,
+            exporter,
             panels: Panels::default(),
             notice: None,
             title: String::new(),
@@ -248,6 +254,14 @@ impl App {
                 Command::Open(paths) => self.open(paths),
                 Command::Meter => self.meter.measure(self.picture.film()),
                 Command::Dismiss => self.notice = None,
+                Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
+                Command::Export(wish) => {
+                    let order = wish.order(&self.document, self.meter.metering());
+                    order
+                        .into_iter()
+                        .for_each(|order| self.exporter.begin(order));
+                }
+                Command::CancelExport => self.exporter.cancel(),
             }
         }
     }
@@ -289,6 +303,9 @@ impl App {
         if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::O))) {
             self.loader.ask();
         }
+        if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::E))) {
+            self.panels.export.open(&self.document, &mut self.exporter);
+        }
     }
 
     fn retitle(&mut self, ctx: &egui::Context) {
@@ -303,6 +320,7 @@ impl App {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         self.receive();
+        self.exporter.poll();
         self.drain();
         self.retitle(ctx);
         // A hidden window draws nothing, yet what was loaded begins to render.
@@ -329,6 +347,9 @@ impl eframe::App for App {
         let size = self.canvas.show(ui, &self.picture, &view);
         self.canvas_size = Some(size);
         panels::overlay(ui, self, &mut commands);
+        self.panels
+            .export
+            .show(&ctx, &self.document, &self.exporter, size, &mut commands);
 
         self.obey(commands);
         self.follow();

@@ -28,6 +28,12 @@ impl FilePanel {
             if open.clicked() {
                 commands.push(Command::Ask);
             }
+            let export = ui
+                .button("Export…")
+                .on_hover_text("Write the picture into a file, at any size (Ctrl+E).");
+            if export.clicked() {
+                commands.push(Command::OpenExport);
+            }
             let field = TextEdit::singleline(&mut self.path)
                 .hint_text("or a path, then Enter")
                 .desired_width(f32::INFINITY);

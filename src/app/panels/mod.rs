@@ -1,6 +1,7 @@
 //! The controls. A panel changes the document's plain data; what it cannot do itself it asks for with a
 //! [`Command`], which is obeyed once every panel is drawn.
 
+mod export;
 mod file;
 mod fire;
 mod overlay;
@@ -18,6 +19,7 @@ pub(super) use overlay::overlay;
 pub(super) use status::status;
 
 use super::Document;
+use super::exporter::Wish;
 
 /// What a panel cannot do itself.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +32,12 @@ pub(super) enum Command {
     Meter,
     /// Take the notice away.
     Dismiss,
+    /// Show the window that asks for an export.
+    OpenExport,
+    /// Export this.
+    Export(Wish),
+    /// Stop exporting.
+    CancelExport,
 }
 
 /// Width of the panel in points, scroll bar included.
@@ -41,6 +49,7 @@ const MARGIN: i8 = 14;
 #[derive(Debug, Default)]
 pub(super) struct Panels {
     pub(super) file: file::FilePanel,
+    pub(super) export: export::ExportPanel,
 }
 
 impl Panels {

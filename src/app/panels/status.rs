@@ -23,6 +23,7 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
                     ui.add(Label::new(format!("Reading {what}…")).truncate());
                     return;
                 }
+                super::export::line(ui, app);
                 let waiting = Progress::default();
                 let progress = if app.renders_newest() {
                     &app.picture.progress
