@@ -3,7 +3,7 @@
 //! The newest request that can be read wins: what an older one brings waits until no newer one is left, and is
 //! dropped once a newer one has come. A failure is a sentence, never a panic.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, UnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -139,18 +139,11 @@ impl Loader {
         let spawned = std::thread::Builder::new()
             .name("sootlight-dialog".into())
             .spawn(move || {
-                let begun = Instant::now();
-                let chosen = catch_unwind(|| {
-                    rfd::FileDialog::new()
-                        .set_title("Open a volume")
-                        .pick_files()
-                });
-                let outcome = match chosen {
-                    Ok(Some(paths)) => Outcome::Chosen(paths),
-                    Ok(None) if begun.elapsed() > TOO_QUICK_FOR_A_PERSON => {
-                        Outcome::Chosen(Vec::new())
-                    }
-                    Ok(None) | Err(_) => Outcome::NoDialog,
+                let dialog = rfd::FileDialog::new().set_title("Open a volume");
+                let outcome = match answer(|| dialog.pick_files()) {
+                    Answer::Chosen(paths) => Outcome::Chosen(paths),
+                    Answer::Closed => Outcome::Chosen(Vec::new()),
+                    Answer::NoDialog => Outcome::NoDialog,
                 };
                 let _ = sender.send((0, outcome));
                 wake();
@@ -243,6 +236,27 @@ fn open_partner(open: &Volume, path: &Path, limits: &Limits) -> Result<Outcome, 
     }
 }
 
+/// What a person answered in a dialog of the desktop.
+#[derive(Debug, PartialEq)]
+pub(super) enum Answer<T> {
+    /// This.
+    Chosen(T),
+    /// Nothing.
+    Closed,
+    /// Nobody was asked: this desktop shows no dialog.
+    NoDialog,
+}
+
+/// Asks with a dialog that waits for its answer: not on the window's thread.
+pub(super) fn answer<T>(dialog: impl FnOnce() -> Option<T> + UnwindSafe) -> Answer<T> {
+    let begun = Instant::now();
+    match catch_unwind(dialog) {
+        Ok(Some(chosen)) => Answer::Chosen(chosen),
+        Ok(None) if begun.elapsed() > TOO_QUICK_FOR_A_PERSON => Answer::Closed,
+        Ok(None) | Err(_) => Answer::NoDialog,
+    }
+}
+
 /// What a person typed or pasted, as paths: one for each line, quotes and a `file://` taken off.
 pub(super) fn paths_of(text: &str) -> Vec<PathBuf> {
     text.lines()
@@ -264,6 +278,17 @@ mod tests {
             paths,
             [PathBuf::from("/a b/c.vdb"), PathBuf::from("/d.vdb")]
         );
+    }
+
+    #[test]
+    fn a_dialog_that_nobody_saw_is_told_from_one_that_was_closed() {
+        assert_eq!(answer(|| Some(7)), Answer::Chosen(7));
+        assert_eq!(answer(|| None::<u8>), Answer::NoDialog);
+        let closed = answer(|| {
+            std::thread::sleep(2 * TOO_QUICK_FOR_A_PERSON);
+            None::<u8>
+        });
+        assert_eq!(closed, Answer::Closed);
     }
 
     #[test]

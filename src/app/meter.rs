@@ -104,14 +104,18 @@ impl Meter {
         }
     }
 
-    /// The view that a person set, over what was measured.
-    pub(super) fn view(&self, params: &ViewParams) -> View {
-        let nothing = Metering {
+    /// What was measured; of a picture that was black so far, that it is.
+    pub(super) fn metering(&self) -> Metering {
+        self.metering.unwrap_or(Metering {
             exposure: 1.0,
             white_xyz: [0.0; 3],
             bright_y: 0.0,
-        };
-        self.metering.unwrap_or(nothing).view(params)
+        })
+    }
+
+    /// The view that a person set, over what was measured.
+    pub(super) fn view(&self, params: &ViewParams) -> View {
+        self.metering().view(params)
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod canvas;
 mod document;
+mod exporter;
 mod files;
 mod meter;
 mod panels;
@@ -24,6 +25,7 @@ pub use document::{Document, FieldRow};
 pub use start::{AppError, run};
 
 use self::canvas::Canvas;
+use self::exporter::Exporter;
 use self::files::{Loader, Outcome, Request};
 use self::meter::Meter;
 use self::panels::{Command, Panels};
@@ -48,6 +50,7 @@ pub struct App {
     canvas_size: Option<[u32; 2]>,
     submitted: Option<Submitted>,
     loader: Loader,
+    exporter: Exporter,
     panels: Panels,
     recent: Recent,
     /// What went wrong last, until it is dismissed.
@@ -75,6 +78,8 @@ impl App {
         let tile_wake = Box::new(move || tile_wake.request_repaint_after(FRAME));
         let engine =
             Engine::new(Engine::threads_beside_a_window(), tile_wake).map_err(AppError::Threads)?;
+        let export_wake = ctx.clone();
+        let exporter = Exporter::new(Arc::new(move || export_wake.request_repaint()));
         let load_wake = ctx.clone();
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
         loader.begin(match project.volume.path.as_slice() {
@@ -90,6 +95,7 @@ impl App {
             canvas_size: None,
             submitted: None,
             loader,
+            exporter,
             panels: Panels::default(),
             recent: Recent::load(creation.storage),
             notice: None,
@@ -271,6 +277,14 @@ impl App {
                     self.edit(|project| project.view.exposure_ev = 0.0);
                 }
                 Command::Dismiss => self.notice = None,
+                Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
+                Command::Export(wish) => {
+                    let order = wish.order(&self.document, self.meter.metering());
+                    order
+                        .into_iter()
+                        .for_each(|order| self.exporter.begin(order));
+                }
+                Command::CancelExport => self.exporter.cancel(),
             }
         }
     }
@@ -315,6 +329,9 @@ impl App {
         if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::N)) {
             self.panels.hidden = !self.panels.hidden;
         }
+        if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::E))) {
+            self.panels.export.open(&self.document, &mut self.exporter);
+        }
     }
 
     fn frame_all(&mut self) {
@@ -351,6 +368,7 @@ impl eframe::App for App {
 
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         self.receive();
+        self.exporter.poll();
         self.drain();
         self.retitle(ctx);
         // A hidden window draws nothing, yet what was loaded begins to render.
@@ -377,6 +395,10 @@ impl eframe::App for App {
         let size = self.canvas.show(ui, &self.picture, &view);
         self.canvas_size = Some(size);
         panels::overlay(ui, self, canvas, &mut commands);
+        let size = self.document.fixed_size.unwrap_or(size);
+        self.panels
+            .export
+            .show(&ctx, &self.document, &self.exporter, size, &mut commands);
 
         self.obey(commands);
         self.follow();

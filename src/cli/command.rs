@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Args, ProjectArgs, RenderArgs, Sub};
 use super::error::CliError;
-use crate::export::is_same_file;
 use crate::export::png::Bits;
+use crate::export::{Format, is_same_file};
 use crate::project::Project;
 use crate::project::set::did_you_mean;
 
@@ -28,13 +28,6 @@ pub(super) struct Render {
     pub(super) format: Format,
     pub(super) threads: usize,
     pub(super) stats: Option<PathBuf>,
-}
-
-/// A picture's file format.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Format {
-    Png(Bits),
-    Exr,
 }
 
 impl Command {
@@ -96,19 +89,15 @@ fn project(args: &ProjectArgs, flags: impl FnOnce(&mut Project)) -> Result<Proje
     Ok(project)
 }
 
-/// The format that a file's ending asks for.
+/// The format that a file's ending and the flag for bits ask for.
 fn format(output: &Path, bits: Option<&str>) -> Result<Format, CliError> {
-    let ending = output
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_lowercase());
-    match (ending.as_deref(), bits) {
-        (Some("png"), Some("16")) => Ok(Format::Png(Bits::Sixteen)),
-        (Some("png"), _) => Ok(Format::Png(Bits::Eight)),
-        (Some("exr"), None) => Ok(Format::Exr),
-        (Some("exr"), Some(_)) => Err(CliError::Usage(
+    match (Format::of(output), bits) {
+        (Some(Format::Png(_)), Some("16")) => Ok(Format::Png(Bits::Sixteen)),
+        (Some(Format::Exr), Some(_)) => Err(CliError::Usage(
             "--bits is for PNG: EXR always has 32-bit floats; leave it out".to_owned(),
         )),
-        _ => Err(CliError::Usage(format!(
+        (Some(format), _) => Ok(format),
+        (None, _) => Err(CliError::Usage(format!(
             "-o {}: the name must end with .png (as it looks) or .exr (the light itself)",
             output.display()
         ))),

@@ -2,25 +2,21 @@
 
 use std::time::Instant;
 
-use super::command::{Format, Render};
+use super::command::Render;
 use super::error::CliError;
 use super::stats::{Seconds, Stats};
 use super::{load, output};
-use crate::colour::display::BakedView;
-use crate::export::{self, Encoded, Provenance};
-use crate::project::{Darkness, Job};
-use crate::render::develop::{Metering, flaws_of};
-use crate::render::{Cancel, Flaws, Frame, render_still};
+use crate::export::{self, ExportError, Still};
+use crate::render::{Cancel, Frame};
 use crate::scene::Scene;
 
 impl Render {
     /// Does it. The clock is read here only: what the core makes does not depend on time.
     pub(super) fn run(&self) -> Result<(), CliError> {
         // A picture that could not be written is not worth its rendering.
-        for path in std::iter::once(&self.output).chain(&self.stats) {
-            export::check_writable(path)
-                .map_err(|error| CliError::failed("nothing was rendered", error))?;
-        }
+        export::check_target(&self.output, &self.project.volume.path)
+            .and_then(|()| self.stats.as_deref().map_or(Ok(()), export::check_writable))
+            .map_err(|error| CliError::failed("nothing was rendered", error))?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads)
             .build()
@@ -32,12 +28,15 @@ impl Render {
             })?;
 
         let (volume, load) = timed(|| pool.install(|| load::volume(&self.project)));
-        let job = self.project.job(&volume?).map_err(CliError::project)?;
-        let (scene, bake) = timed(|| pool.install(|| job.scene(None)));
-        let (frame, render) = timed(|| pool.install(|| still(&scene, &job)));
-        let frame = frame?;
-        let (written, write) = timed(|| pool.install(|| self.write(&job, &frame)));
-        let (metering, flaws) = written?;
+        let still = Still::new(&self.project, &volume?, None).map_err(CliError::project)?;
+        let (scene, bake) = timed(|| pool.install(|| still.scene()));
+        let (frame, render) = timed(|| pool.install(|| with_a_bar(&still, &scene)));
+        let not_written = |error| CliError::failed("the picture was not written", error);
+        let frame = frame.map_err(not_written)?;
+        let (written, write) = timed(|| {
+            pool.install(|| still.write(&frame, self.format, &self.output, &Cancel::never()))
+        });
+        let export::Written { metering, flaws } = written.map_err(not_written)?;
 
         let seconds = Seconds {
             load,
@@ -51,7 +50,7 @@ impl Render {
             let stats = Stats {
                 seconds,
                 threads,
-                job: &job,
+                job: &still.job,
                 scene: &scene,
                 frame: &frame,
                 metering,
@@ -74,40 +73,15 @@ impl Render {
         }
         Ok(())
     }
-
-    /// Encodes and writes the picture; gives what the meter saw, and every flaw.
-    fn write(&self, job: &Job, frame: &Frame) -> Result<(Metering, Flaws), CliError> {
-        let metering = Metering::of(&frame.film);
-        let mut flaws = job.flaws.clone();
-        flaws.extend(frame.flaws.iter().map(String::from));
-        flaws.extend(flaws_of(&frame.film).iter().map(String::from));
-        if metering.is_black() {
-            flaws.add(Darkness::of(job).words);
-        }
-        let encode = || -> Result<Encoded, export::ExportError> {
-            let provenance = Provenance::new(&self.project, &flaws);
-            match self.format {
-                Format::Png(bits) => {
-                    let view = BakedView::new(&metering.view(&self.project.view()));
-                    export::png::encode(&frame.film, &view, bits, &provenance)
-                }
-                Format::Exr => export::exr::encode(&frame.film, &provenance),
-            }
-        };
-        let failed = |error| CliError::failed("the picture was not written", error);
-        let encoded = encode().map_err(failed)?;
-        export::write(&self.output, &encoded.bytes).map_err(failed)?;
-        Ok((metering, flaws))
-    }
 }
 
-fn still(scene: &Scene, job: &Job) -> Result<Frame, CliError> {
+fn with_a_bar(still: &Still, scene: &Scene) -> Result<Frame, ExportError> {
     let bar = output::progress_bar();
-    let frame = render_still(scene, &job.settings, &Cancel::never(), &|share| {
+    let frame = still.render(scene, &Cancel::never(), &|share| {
         output::advance(&bar, share);
     });
     bar.finish_and_clear();
-    frame.ok_or_else(|| CliError::Said("the render was cancelled".to_owned()))
+    frame
 }
 
 /// What a step gives, and its wall-clock seconds.

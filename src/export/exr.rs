@@ -12,7 +12,7 @@
 //! All channels stand in a single part with dotted names, which Blender, Nuke and OpenImageIO show as layers and
 //! which a reader without layers takes for a plain RGBA picture.
 
-use std::io::Cursor;
+use std::io::{self, Cursor, Seek, SeekFrom, Write};
 
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
 use exr::meta::attribute::{AttributeValue, Chromaticities, LineOrder, Text};
@@ -23,7 +23,7 @@ use glam::DVec3;
 use super::{Encoded, ExportError, Provenance, is_finite};
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::xyz::{PRIMARIES_XY, WHITE_XY, rgb_from_xyz};
-use crate::render::{Film, Pixel};
+use crate::render::{Cancel, Film, Pixel};
 
 /// Name of the attribute that holds the scene file.
 pub const SCENE_ATTRIBUTE: &str = "sootlight.scene";
@@ -36,8 +36,12 @@ const CHANNELS: [&str; 10] = [
 /// Encodes a film. Pixels that are not finite become black and clear, and are counted.
 ///
 /// # Errors
-/// The encoder refuses: a picture without pixels.
-pub fn encode(film: &Film, provenance: &Provenance) -> Result<Encoded, ExportError> {
+/// The encoder refuses: a picture without pixels. [`ExportError::Cancelled`].
+pub fn encode(
+    film: &Film,
+    provenance: &Provenance,
+    cancel: &Cancel,
+) -> Result<Encoded, ExportError> {
     let rgb_from_xyz = rgb_from_xyz();
     let mut channels: [Vec<f32>; CHANNELS.len()] = Default::default();
     let mut spoilt_pixels = 0;
@@ -82,20 +86,52 @@ pub fn encode(film: &Film, provenance: &Provenance) -> Result<Encoded, ExportErr
     ));
     image.attributes.chromaticities = Some(rec_709());
 
-    let mut bytes = Cursor::new(Vec::new());
+    let mut sink = Sink {
+        bytes: Cursor::new(Vec::new()),
+        cancel,
+    };
     let write = image.write();
     // The encoder starts a pool of its own with a thread for each core. Where the caller's pool has fewer, that
     // would be more than were given: the caller's thread compresses alone, to the same bytes.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    if rayon::current_num_threads() < cores {
-        write.non_parallel().to_buffered(&mut bytes)?;
+    let written = if rayon::current_num_threads() < cores {
+        write.non_parallel().to_buffered(&mut sink)
     } else {
-        write.to_buffered(&mut bytes)?;
+        write.to_buffered(&mut sink)
+    };
+    match written {
+        Err(_) if cancel.is_cancelled() => Err(ExportError::Cancelled),
+        Err(error) => Err(error.into()),
+        Ok(()) => Ok(Encoded {
+            bytes: sink.bytes.into_inner(),
+            spoilt_pixels,
+        }),
     }
-    Ok(Encoded {
-        bytes: bytes.into_inner(),
-        spoilt_pixels,
-    })
+}
+
+/// Takes the file's bytes until it is cancelled: the encoder stops at a writer that fails, block by block.
+struct Sink<'a> {
+    bytes: Cursor<Vec<u8>>,
+    cancel: &'a Cancel,
+}
+
+impl Write for Sink<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.cancel.is_cancelled() {
+            return Err(io::Error::other("cancelled"));
+        }
+        self.bytes.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Seek for Sink<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.bytes.seek(to)
+    }
 }
 
 /// The numbers of a pixel, one for each of [`CHANNELS`].
@@ -140,7 +176,10 @@ mod tests {
         let mut flaws = Flaws::default();
         flaws.add("σ was guessed");
         let provenance = Provenance::new(&Project::default(), &flaws);
-        (encode(&test_film(), &provenance).unwrap(), provenance)
+        (
+            encode(&test_film(), &provenance, &Cancel::never()).unwrap(),
+            provenance,
+        )
     }
 
     #[test]

@@ -3,8 +3,10 @@
 
 pub mod atomic;
 pub mod exr;
+pub mod format;
 pub mod png;
 pub mod provenance;
+pub mod still;
 
 use std::path::PathBuf;
 
@@ -13,7 +15,9 @@ use thiserror::Error;
 use crate::render::Pixel;
 
 pub use atomic::{check_writable, is_same_file, write};
+pub use format::Format;
 pub use provenance::Provenance;
+pub use still::{Still, Written, check_target};
 
 /// A picture as the bytes of a file.
 #[derive(Debug, Clone)]
@@ -38,6 +42,15 @@ pub enum ExportError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The picture would take the place of what it is made from.
+    #[error("{path} is a file of the volume itself: choose another name", path = path.display())]
+    OwnVolume {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Nobody wants it any more.
+    #[error("the export was cancelled; nothing was written")]
+    Cancelled,
     /// The PNG encoder refused.
     #[error("the picture cannot be encoded as PNG")]
     Png(#[from] ::png::EncodingError),

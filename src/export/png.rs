@@ -4,14 +4,16 @@
 //! full range), sRGB, and gAMA with cHRM for those that know neither. Values are rounded to the nearest, without
 //! dithering: the same film gives the same bytes.
 
+use std::io::Write as _;
+
 use png::text_metadata::ITXtChunk;
 use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, chunk};
 
 use super::{Encoded, ExportError, Provenance, is_finite};
 use crate::colour::display::BakedView;
 use crate::colour::xyz::{PRIMARIES_XY, WHITE_XY};
-use crate::render::Film;
 use crate::render::develop::develop;
+use crate::render::{Cancel, Film};
 
 /// Keyword of the text that holds the scene file.
 pub const SCENE_KEYWORD: &str = "sootlight.scene";
@@ -29,15 +31,19 @@ pub enum Bits {
     Sixteen,
 }
 
+/// Rows that are encoded between two looks at whether to stop.
+const BAND: usize = 32;
+
 /// Develops a film and encodes it. Pixels that are not finite become black and are counted.
 ///
 /// # Errors
-/// The encoder refuses: a picture without pixels.
+/// The encoder refuses: a picture without pixels. [`ExportError::Cancelled`].
 pub fn encode(
     film: &Film,
     view: &BakedView,
     bits: Bits,
     provenance: &Provenance,
+    cancel: &Cancel,
 ) -> Result<Encoded, ExportError> {
     let mut display = develop(film, view);
     let mut spoilt_pixels = 0;
@@ -74,7 +80,17 @@ pub fn encode(
     ] {
         writer.write_text_chunk(&ITXtChunk::new(keyword, text.as_str()))?;
     }
-    writer.write_image_data(&quantised(&display, bits))?;
+    let mut stream = writer.stream_writer()?;
+    for rows in display.chunks(BAND * width as usize) {
+        if cancel.is_cancelled() {
+            return Err(ExportError::Cancelled);
+        }
+        let levels = quantised(rows, bits);
+        stream
+            .write_all(&levels)
+            .map_err(png::EncodingError::from)?;
+    }
+    stream.finish()?;
     writer.finish()?;
     Ok(Encoded {
         bytes,
@@ -120,7 +136,14 @@ mod tests {
             white_xyz: [0.0; 3],
             curve: Curve::Linear,
         };
-        let encoded = encode(&test_film(), &BakedView::new(&view), bits, &provenance).unwrap();
+        let encoded = encode(
+            &test_film(),
+            &BakedView::new(&view),
+            bits,
+            &provenance,
+            &Cancel::never(),
+        )
+        .unwrap();
         (encoded, provenance)
     }
 

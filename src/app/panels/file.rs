@@ -40,6 +40,12 @@ impl FilePanel {
                 commands.push(Command::Ask);
             }
             open_again(ui, recent, commands);
+            let export = ui
+                .button("Export…")
+                .on_hover_text("Write the picture into a file, at any size (Ctrl+E).");
+            if export.clicked() {
+                commands.push(Command::OpenExport);
+            }
             let tip = "Take the last change back (Ctrl+Z).";
             if button(ui, document.can_undo(), "Undo", tip) {
                 commands.push(Command::Undo);

@@ -3,6 +3,7 @@
 
 mod air;
 mod camera;
+mod export;
 mod file;
 mod fire;
 mod knob;
@@ -21,6 +22,7 @@ pub(super) use overlay::overlay;
 pub(super) use status::status;
 
 use super::Document;
+use super::exporter::Wish;
 use super::recent::Recent;
 use crate::project::Mend;
 
@@ -45,6 +47,12 @@ pub(super) enum Command {
     AutoExposure,
     /// Take the notice away.
     Dismiss,
+    /// Show the window that asks for an export.
+    OpenExport,
+    /// Export this.
+    Export(Wish),
+    /// Stop exporting.
+    CancelExport,
 }
 
 /// Width of the panel in points, scroll bar included.
@@ -60,6 +68,7 @@ pub(super) struct Panels {
     pub(super) file: file::FilePanel,
     /// Whether the panel is out of sight, for the picture's sake.
     pub(super) hidden: bool,
+    pub(super) export: export::ExportPanel,
 }
 
 impl Panels {

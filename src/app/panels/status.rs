@@ -26,6 +26,7 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
             // The line is as high whatever it says: the picture above must keep its size.
             ui.set_min_height(HEIGHT - 2.0 * f32::from(MARGIN));
             ui.horizontal_centered(|ui| {
+                super::export::line(ui, app);
                 if app.loader.loading().is_some() {
                     loading(ui, app);
                 } else {

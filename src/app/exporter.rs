@@ -1,0 +1,470 @@
+//! A still written in the background while the window stays live: at most one at a time, on a named thread with a
+//! rayon pool of its own, beside the engine that goes on rendering what is on show.
+//!
+//! An [`Order`] is plain data, taken when Export is pressed: what is edited or opened afterwards does not change it.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use thiserror::Error;
+
+use super::Document;
+use crate::export::{ExportError, Format, Still, check_target};
+use crate::project::{CameraSettings, Project, ProjectError, Quality};
+use crate::render::develop::Metering;
+use crate::render::{Cancel, Flaws};
+use crate::volume::Volume;
+
+/// Between two calls that wake the window, milliseconds.
+const WAKE_MS: u64 = 50;
+
+/// How exactly an export is rendered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Exactness {
+    /// With the numbers of [`Quality::Final`].
+    #[default]
+    Final,
+    /// With the numbers of the window.
+    AsSeen,
+}
+
+/// What a person asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Wish {
+    /// Where to.
+    pub(super) path: PathBuf,
+    /// As what.
+    pub(super) format: Format,
+    /// Width and height in pixels.
+    pub(super) size: [u32; 2],
+    /// How exactly.
+    pub(super) exactness: Exactness,
+}
+
+/// A still to be written.
+#[derive(Clone)]
+pub(super) struct Order {
+    /// What is rendered, at the size of `render.size`.
+    pub(super) project: Project,
+    /// The open volume.
+    pub(super) volume: Arc<Volume>,
+    /// Brightness and white of the window.
+    pub(super) metering: Metering,
+    /// Where to.
+    pub(super) path: PathBuf,
+    /// As what.
+    pub(super) format: Format,
+}
+
+/// What became of an export.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Outcome {
+    /// The file is there.
+    Done {
+        /// The file.
+        path: PathBuf,
+        /// Width and height in pixels.
+        size: [u32; 2],
+        /// Wall-clock time of everything.
+        seconds: f64,
+        /// Everything assumed or not faithful.
+        flaws: Flaws,
+    },
+    /// Nothing was written, and why.
+    Failed(String),
+    /// Nothing was written, as was wished.
+    Cancelled,
+}
+
+/// How far an export is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Progress {
+    /// Rendered share, 0 to 1.
+    pub(super) share: f64,
+    /// Time since it began.
+    pub(super) elapsed: Duration,
+}
+
+/// Exports in the background. Dropping it cancels and joins.
+pub(super) struct Exporter {
+    running: Option<Running>,
+    last: Option<Outcome>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+struct Running {
+    path: PathBuf,
+    begun: Instant,
+    shared: Arc<Shared>,
+    outcome: Receiver<Outcome>,
+    thread: JoinHandle<()>,
+}
+
+/// What the window and the thread both see.
+#[derive(Default)]
+struct Shared {
+    /// Raised to cancel.
+    generation: Arc<AtomicU64>,
+    /// The rendered share in millionths: a whole number can only rise.
+    millionths: AtomicU64,
+    /// When the window was last woken, milliseconds since the beginning.
+    woken_ms: AtomicU64,
+}
+
+const MILLION: f64 = 1e6;
+
+/// Why nothing was written.
+#[derive(Debug, Error)]
+enum NotExported {
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    #[error("this cannot be rendered as it is set: {0}")]
+    Project(#[from] ProjectError),
+    #[error("{0} is no file but a device or a pipe: choose another name")]
+    NoFile(String),
+    #[error("the threads to export with cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl Exactness {
+    /// The project with the numbers that it is exported with.
+    pub(super) fn of(self, project: &Project) -> Project {
+        let mut project = project.clone();
+        if self == Self::Final {
+            let render = &mut project.render;
+            render.quality = Quality::Final;
+            render.step_voxels = None;
+            render.wavelengths = None;
+            render.samples_per_pixel = None;
+        }
+        project
+    }
+}
+
+impl Wish {
+    /// The order that it stands for: the document's volume and settings, seen from where the window sees them, with
+    /// its brightness. `None` while nothing is shown.
+    pub(super) fn order(self, document: &Document, metering: Metering) -> Option<Order> {
+        let volume = Arc::clone(document.volume()?);
+        // A camera that frames the flame would stand elsewhere in a picture of another shape.
+        let camera = document.last_job()?.camera;
+        let mut project = self.exactness.of(&document.project);
+        project.camera = CameraSettings {
+            eye: Some(camera.eye),
+            target: Some(camera.target),
+            up: Some(camera.up),
+            fov_deg: Some(camera.fov_deg),
+        };
+        project.render.size = self.size;
+        Some(Order {
+            project,
+            volume,
+            metering,
+            path: self.path,
+            format: self.format,
+        })
+    }
+}
+
+impl Exporter {
+    /// An exporter that calls `wake`, from any thread, when there is something new to draw.
+    pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+        Self {
+            running: None,
+            last: None,
+            wake,
+        }
+    }
+
+    /// Begins to export, unless an export runs.
+    pub(super) fn begin(&mut self, order: Order) {
+        if self.running.is_some() {
+            return;
+        }
+        self.last = None;
+        let path = order.path.clone();
+        let begun = Instant::now();
+        let shared = Arc::new(Shared::default());
+        let (sender, outcome) = channel();
+        let spawned = std::thread::Builder::new()
+            .name("sootlight-export".into())
+            .spawn({
+                let (shared, wake) = (Arc::clone(&shared), Arc::clone(&self.wake));
+                move || {
+                    // The window may be gone.
+                    let _ = sender.send(shared.outcome(&order, begun, wake.as_ref()));
+                    wake();
+                }
+            });
+        match spawned {
+            Ok(thread) => {
+                self.running = Some(Running {
+                    path,
+                    begun,
+                    shared,
+                    outcome,
+                    thread,
+                });
+            }
+            Err(error) => {
+                let words = format!("the thread to export with cannot be started: {error}");
+                self.last = Some(Outcome::Failed(words));
+            }
+        }
+    }
+
+    /// Stops what runs; nothing is written.
+    pub(super) fn cancel(&self) {
+        if let Some(running) = &self.running {
+            running.shared.generation.fetch_add(1, Ordering::SeqCst);
+        }
+    }
+
+    /// Takes in the outcome, once there is one.
+    pub(super) fn poll(&mut self) {
+        let Some(running) = &self.running else {
+            return;
+        };
+        let outcome = match running.outcome.try_recv() {
+            Ok(outcome) => outcome,
+            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Disconnected) => {
+                Outcome::Failed("the export ended without a word; nothing was written".to_owned())
+            }
+        };
+        self.last = Some(outcome);
+        if let Some(running) = self.running.take() {
+            // It has said its last word.
+            let _ = running.thread.join();
+        }
+    }
+
+    /// The file that is being made, and how far it is.
+    pub(super) fn running(&self) -> Option<(&Path, Progress)> {
+        self.running.as_ref().map(|running| {
+            let share = running.shared.millionths.load(Ordering::Relaxed) as f64 / MILLION;
+            let elapsed = running.begun.elapsed();
+            (running.path.as_path(), Progress { share, elapsed })
+        })
+    }
+
+    /// What became of the last export, until the next begins or it is dismissed.
+    pub(super) fn last(&self) -> Option<&Outcome> {
+        self.last.as_ref()
+    }
+
+    /// Forgets what became of the last export.
+    pub(super) fn dismiss(&mut self) {
+        self.last = None;
+    }
+}
+
+impl Drop for Exporter {
+    fn drop(&mut self) {
+        self.cancel();
+        if let Some(running) = self.running.take() {
+            // A panic of the thread was caught where it happened.
+            let _ = running.thread.join();
+        }
+    }
+}
+
+impl Shared {
+    fn outcome(&self, order: &Order, begun: Instant, wake: &(dyn Fn() + Send + Sync)) -> Outcome {
+        let progress = |share: f64| {
+            self.millionths
+                .fetch_max((share * MILLION) as u64, Ordering::Relaxed);
+            let now = begun.elapsed().as_millis() as u64;
+            let woken = self.woken_ms.load(Ordering::Relaxed);
+            let is_mine = now >= woken + WAKE_MS
+                && self
+                    .woken_ms
+                    .compare_exchange(woken, now, Ordering::Relaxed, Ordering::Relaxed)
+                    .is_ok();
+            if is_mine {
+                wake();
+            }
+        };
+        let cancel = Cancel::when_passed(Arc::clone(&self.generation), 0);
+        match catch_unwind(AssertUnwindSafe(|| export(order, &cancel, &progress))) {
+            Ok(Ok(flaws)) => Outcome::Done {
+                path: order.path.clone(),
+                size: order.project.render.size,
+                seconds: begun.elapsed().as_secs_f64(),
+                flaws,
+            },
+            Ok(Err(NotExported::Export(ExportError::Cancelled))) => Outcome::Cancelled,
+            Ok(Err(error)) => Outcome::Failed(with_causes(&error)),
+            Err(panic) => {
+                let words = panic.downcast_ref::<&str>().copied();
+                let words = words.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+                let words = words.unwrap_or("no reason given");
+                Outcome::Failed(format!("the export failed: {words}. Nothing was written"))
+            }
+        }
+    }
+}
+
+/// The whole road, on the exporter's thread.
+fn export(
+    order: &Order,
+    cancel: &Cancel,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<Flaws, NotExported> {
+    // Writing to a pipe would wait for its reader, and the window for that.
+    if std::fs::metadata(&order.path).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        return Err(NotExported::NoFile(order.path.display().to_string()));
+    }
+    check_target(&order.path, &order.volume.sources)?;
+    let still = Still::new(&order.project, &order.volume, Some(order.metering))?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads((cores / 2).max(1))
+        .thread_name(|i| format!("sootlight-export-{i}"))
+        .build()?;
+    pool.install(|| {
+        let scene = still.scene();
+        let frame = still.render(&scene, cancel, progress)?;
+        let written = still.write(&frame, order.format, &order.path, cancel)?;
+        Ok(written.flaws)
+    })
+}
+
+/// An error in one line, with what caused it.
+fn with_causes(error: &dyn std::error::Error) -> String {
+    let mut words = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        let said = error.to_string();
+        // Some errors quote their cause: once is enough.
+        if !words.ends_with(&said) {
+            words = format!("{words} ({said})");
+        }
+        cause = error.source();
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+    use crate::volume::procedural;
+
+    fn order(path: PathBuf, side: u32) -> Order {
+        let mut project = Project::default();
+        project.render.size = [side, side];
+        Order {
+            project,
+            volume: Arc::new(procedural::torch()),
+            metering: Metering {
+                exposure: 1.0,
+                white_xyz: [1.0; 3],
+                bright_y: 1.0,
+            },
+            path,
+            format: Format::Exr,
+        }
+    }
+
+    fn outcome(exporter: &mut Exporter) -> Outcome {
+        while exporter.running().is_some() {
+            exporter.poll();
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        exporter.last().unwrap().clone()
+    }
+
+    fn is_empty(folder: &tempfile::TempDir) -> bool {
+        std::fs::read_dir(folder).unwrap().count() == 0
+    }
+
+    #[test]
+    fn one_export_runs_at_a_time_and_ends_with_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut exporter = Exporter::new(Arc::new(|| {}));
+        exporter.begin(order(folder.path().join("a.exr"), 32));
+        exporter.begin(order(folder.path().join("b.exr"), 32));
+        assert!(matches!(
+            outcome(&mut exporter),
+            Outcome::Done { size: [32, 32], .. }
+        ));
+        assert!(folder.path().join("a.exr").is_file() && !folder.path().join("b.exr").exists());
+    }
+
+    #[test]
+    fn what_is_cancelled_or_dropped_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let huge = || order(folder.path().join("a.exr"), 8192);
+        let mut exporter = Exporter::new(Arc::new(|| {}));
+        exporter.begin(huge());
+        exporter.cancel();
+        assert_eq!(outcome(&mut exporter), Outcome::Cancelled);
+        exporter.begin(huge());
+        drop(exporter);
+        assert!(is_empty(&folder));
+    }
+
+    #[test]
+    fn a_file_of_the_volume_is_never_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fire.png");
+        std::fs::write(&path, "a volume").unwrap();
+        let mut own = order(
+            folder
+                .path()
+                .join("../")
+                .join(folder.path())
+                .join("fire.png"),
+            8,
+        );
+        Arc::make_mut(&mut own.volume).sources = vec![path.clone()];
+        let mut exporter = Exporter::new(Arc::new(|| {}));
+        exporter.begin(own);
+        let Outcome::Failed(words) = outcome(&mut exporter) else {
+            unreachable!()
+        };
+        assert!(words.contains("of the volume itself"), "{words}");
+        assert_eq!(std::fs::read(path).unwrap(), b"a volume");
+    }
+
+    #[test]
+    fn the_window_is_woken_now_and_then_and_at_the_end() {
+        let count = Arc::new(AtomicU64::new(0));
+        let wake = Arc::clone(&count);
+        let folder = tempfile::tempdir().unwrap();
+        let begun = Instant::now();
+        let mut exporter = Exporter::new(Arc::new(move || {
+            wake.fetch_add(1, Ordering::SeqCst);
+        }));
+        exporter.begin(order(folder.path().join("a.exr"), 512));
+        outcome(&mut exporter);
+        let most = begun.elapsed().as_millis() as u64 / WAKE_MS + 1;
+        let woken = count.load(Ordering::SeqCst);
+        assert!((1..=most).contains(&woken), "{woken} of at most {most}");
+    }
+
+    #[test]
+    fn final_numbers_take_the_place_of_every_override() {
+        let mut project = Project::default();
+        let overrides = [
+            "render.step_voxels=4",
+            "render.wavelengths=4",
+            "render.samples_per_pixel=2",
+        ];
+        project.set_all(overrides).unwrap();
+        assert_eq!(Exactness::AsSeen.of(&project), project);
+        let settings = Exactness::Final.of(&project).settings([8, 8]).unwrap();
+        let numbers = (
+            settings.step_voxels,
+            settings.wavelengths,
+            settings.samples_per_pixel,
+        );
+        assert_eq!(numbers, Quality::Final.numbers());
+    }
+}

@@ -1,0 +1,225 @@
+//! Where an export goes: a path that is typed or chosen, whose ending is the format.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+use egui::Context;
+
+use crate::app::files::{Answer, answer, paths_of};
+use crate::export::Format;
+use crate::export::png::Bits;
+
+/// How long it is believed that a file exists or does not.
+const BELIEVED: Duration = Duration::from_secs(1);
+
+/// The path of an export.
+#[derive(Debug, Default)]
+pub(super) struct Target {
+    /// What is in the field.
+    pub(super) text: String,
+    /// The volume that it was named after.
+    named_after: Option<Vec<PathBuf>>,
+    /// Bits of a PNG: its ending does not tell them.
+    bits: Bits,
+    /// The dialog that is open.
+    dialog: Option<Receiver<Answer<PathBuf>>>,
+    /// Whether this desktop turned out to have no dialog.
+    pub(super) no_dialog: bool,
+    looked_up: Option<LookedUp>,
+}
+
+/// Whether there is a file, as it was found a moment ago.
+#[derive(Debug)]
+struct LookedUp {
+    path: PathBuf,
+    exists: bool,
+    at: Instant,
+    /// While an export ran: it may have made the file.
+    running: bool,
+}
+
+impl Target {
+    /// Names the picture after a volume, unless it was already.
+    pub(super) fn name_after(&mut self, sources: &[PathBuf]) {
+        if self.named_after.as_deref() == Some(sources) {
+            return;
+        }
+        self.named_after = Some(sources.to_vec());
+        let stem = sources.first().and_then(|path| path.file_stem());
+        let stem = stem.map_or("torch".into(), |stem| stem.to_string_lossy());
+        let ending = self.format().unwrap_or(Format::ALL[0]).ending();
+        self.text = format!("{stem}.{ending}");
+    }
+
+    /// The path as it is typed.
+    fn path(&self) -> Option<PathBuf> {
+        paths_of(&self.text).into_iter().next()
+    }
+
+    /// The format that is asked for, if it is one.
+    pub(super) fn format(&self) -> Option<Format> {
+        Some(match Format::of(&self.path()?)? {
+            Format::Png(_) => Format::Png(self.bits),
+            Format::Exr => Format::Exr,
+        })
+    }
+
+    /// The file to write and its format; `None` if the name is not right.
+    pub(super) fn file(&self) -> Option<(PathBuf, Format)> {
+        Some((self.path()?, self.format()?))
+    }
+
+    /// Asks for a format: the name gets its ending.
+    pub(super) fn set_format(&mut self, format: Format) {
+        if let Format::Png(bits) = format {
+            self.bits = bits;
+        }
+        if let Some(path) = self.path() {
+            self.text = format.name_file(&path).display().to_string();
+        }
+    }
+
+    /// Why nothing can be written by this name.
+    pub(super) fn problem(&self) -> Option<&'static str> {
+        match self.format() {
+            Some(_) => None,
+            None => Some("The name must end with .png or .exr."),
+        }
+    }
+
+    /// The whole path, for a person.
+    pub(super) fn whereabouts(&self) -> String {
+        let path = self.path().unwrap_or_default();
+        let whole = std::path::absolute(&path).unwrap_or(path);
+        format!("The file to write: {}", whole.display())
+    }
+
+    /// The file's name, if it exists. Asked at most once a second while nothing changes: a disk may be slow.
+    pub(super) fn existing(&mut self, running: bool) -> Option<String> {
+        let path = self.path()?;
+        let known = self.looked_up.as_ref().filter(|known| {
+            known.path == path && known.running == running && known.at.elapsed() < BELIEVED
+        });
+        let exists = known.map_or_else(|| path.exists(), |known| known.exists);
+        let name = exists.then(|| name_of(&path));
+        if known.is_none() {
+            self.looked_up = Some(LookedUp {
+                path,
+                exists,
+                at: Instant::now(),
+                running,
+            });
+        }
+        name
+    }
+
+    /// Asks with the desktop's dialog, on a thread of its own.
+    pub(super) fn ask(&mut self, ctx: &Context) {
+        if self.dialog.is_some() {
+            return;
+        }
+        let mut dialog = rfd::FileDialog::new()
+            .set_title("Export the picture")
+            .add_filter("Pictures", &["png", "exr"]);
+        if let Some(path) = self.path().and_then(|path| std::path::absolute(path).ok()) {
+            if let Some(folder) = path.parent() {
+                dialog = dialog.set_directory(folder);
+            }
+            dialog = dialog.set_file_name(name_of(&path));
+        }
+        let (sender, receiver) = channel();
+        let ctx = ctx.clone();
+        let spawned = std::thread::Builder::new()
+            .name("sootlight-dialog".into())
+            .spawn(move || {
+                // The window may be gone.
+                let _ = sender.send(answer(|| dialog.save_file()));
+                ctx.request_repaint();
+            });
+        match spawned {
+            Ok(_) => self.dialog = Some(receiver),
+            Err(_) => self.no_dialog = true,
+        }
+    }
+
+    /// Takes in what was chosen.
+    pub(super) fn receive(&mut self) {
+        let Some(dialog) = &self.dialog else { return };
+        let answer = match dialog.try_recv() {
+            Ok(answer) => answer,
+            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Disconnected) => Answer::NoDialog,
+        };
+        self.dialog = None;
+        self.no_dialog = answer == Answer::NoDialog;
+        if let Answer::Chosen(path) = answer {
+            // Some dialogs leave the ending to the program.
+            let format = Format::of(&path).or(self.format());
+            let path = format.map_or(path.clone(), |format| format.name_file(&path));
+            self.text = path.display().to_string();
+        }
+    }
+}
+
+/// A path without its folders, for a person.
+pub(super) fn name_of(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_named_after_its_volume_until_a_person_names_it() {
+        let mut target = Target::default();
+        target.name_after(&[]);
+        assert_eq!(target.text, "torch.png");
+        target.text = "mine.exr".to_owned();
+        target.name_after(&[]);
+        assert_eq!(target.text, "mine.exr");
+        target.name_after(&[PathBuf::from("a/fire.vdb"), PathBuf::from("b.vdb")]);
+        assert_eq!(target.text, "fire.exr");
+    }
+
+    #[test]
+    fn the_ending_and_the_format_are_one_thing() {
+        let mut target = Target {
+            text: "a/fire.png".to_owned(),
+            ..Target::default()
+        };
+        for (format, text) in [
+            (Format::Png(Bits::Sixteen), "a/fire.png"),
+            (Format::Exr, "a/fire.exr"),
+            (Format::Png(Bits::Eight), "a/fire.png"),
+        ] {
+            target.set_format(format);
+            assert_eq!(
+                (target.text.as_str(), target.format()),
+                (text, Some(format))
+            );
+        }
+        target.text = "fire.jpg".to_owned();
+        assert!(target.file().is_none() && target.problem().is_some());
+        target.set_format(Format::Exr);
+        assert_eq!(target.text, "fire.jpg.exr");
+        target.text = "  ".to_owned();
+        assert!(target.file().is_none() && target.problem().is_some());
+    }
+
+    #[test]
+    fn a_path_that_cannot_be_shown_is_not_changed_by_being_shown() {
+        let mut target = Target {
+            text: "\"/a b/fire.png\"".to_owned(),
+            ..Target::default()
+        };
+        assert_eq!(
+            target.file().map(|(path, _)| path),
+            Some("/a b/fire.png".into())
+        );
+        target.set_format(Format::Exr);
+        assert_eq!(target.text, "/a b/fire.exr");
+    }
+}

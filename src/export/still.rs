@@ -1,0 +1,139 @@
+//! A still, from a project and its open volume to the bytes on disk: the one road of command line and window.
+//!
+//! [`Still::new`] checks the settings, [`Still::scene`] packs the medium, [`Still::render`] marches the rays, and
+//! [`Still::write`] develops, encodes and writes. The steps are apart so that a caller may put each on its clock.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::{ExportError, Format, Provenance, check_writable, exr, is_same_file, png, write};
+use crate::colour::display::BakedView;
+use crate::project::ranges::EXPOSURE_EV;
+use crate::project::{Darkness, Job, Project, ProjectError};
+use crate::render::develop::{Metering, flaws_of};
+use crate::render::{Cancel, Flaws, Frame, Settings, render_still};
+use crate::scene::Scene;
+use crate::volume::Volume;
+
+/// A still of a project.
+#[derive(Debug, Clone)]
+pub struct Still {
+    /// What is rendered.
+    pub job: Job,
+    project: Project,
+    locked: Option<Metering>,
+}
+
+/// What is told of a still that was written.
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// The brightness and the white that it was developed with, before what a person set.
+    pub metering: Metering,
+    /// Everything assumed or not faithful.
+    pub flaws: Flaws,
+}
+
+/// Whether a picture could be written here, asked before the work that it is to hold. `sources` are the files that
+/// the volume is read from.
+///
+/// # Errors
+/// [`ExportError`]: the path is one of the sources, or as [`check_writable`].
+pub fn check_target(path: &Path, sources: &[PathBuf]) -> Result<(), ExportError> {
+    if sources.iter().any(|source| is_same_file(path, source)) {
+        return Err(ExportError::OwnVolume {
+            path: path.to_owned(),
+        });
+    }
+    check_writable(path)
+}
+
+impl Still {
+    /// A still of the size, quality, camera and view that the project sets. Brightness and white are measured on the
+    /// still itself, or are `locked` as a window holds them.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the key, its value and what would be right.
+    pub fn new(
+        project: &Project,
+        volume: &Arc<Volume>,
+        locked: Option<Metering>,
+    ) -> Result<Self, ProjectError> {
+        Ok(Self {
+            job: project.job(volume)?,
+            project: project.clone(),
+            locked,
+        })
+    }
+
+    /// Packs the medium and bakes the laws.
+    pub fn scene(&self) -> Scene {
+        self.job.scene(None)
+    }
+
+    /// Renders in the calling thread's rayon pool. `progress` hears the finished share, 0 to 1, from any thread.
+    ///
+    /// # Errors
+    /// [`ExportError::Cancelled`].
+    pub fn render(
+        &self,
+        scene: &Scene,
+        cancel: &Cancel,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Frame, ExportError> {
+        let settings: &Settings = &self.job.settings;
+        render_still(scene, settings, cancel, progress).ok_or(ExportError::Cancelled)
+    }
+
+    /// Develops, encodes and writes: the file is whole or not there.
+    ///
+    /// # Errors
+    /// [`ExportError`]: the encoder or the system refused, or it was cancelled. Whatever stood at `path` before
+    /// stands there still.
+    pub fn write(
+        &self,
+        frame: &Frame,
+        format: Format,
+        path: &Path,
+        cancel: &Cancel,
+    ) -> Result<Written, ExportError> {
+        let own = Metering::of(&frame.film);
+        let metering = self.locked.unwrap_or(own);
+        let mut flaws = self.job.flaws.clone();
+        flaws.extend(frame.flaws.iter().map(String::from));
+        flaws.extend(flaws_of(&frame.film).iter().map(String::from));
+        if own.is_black() {
+            flaws.add(Darkness::of(&self.job).words);
+        }
+
+        let provenance = Provenance::new(&self.portable(&own), &flaws);
+        let encoded = match format {
+            Format::Png(bits) => {
+                let view = BakedView::new(&metering.view(&self.project.view()));
+                png::encode(&frame.film, &view, bits, &provenance, cancel)
+            }
+            Format::Exr => exr::encode(&frame.film, &provenance, cancel),
+        };
+        // A last chance: from here on the file appears.
+        if cancel.is_cancelled() {
+            return Err(ExportError::Cancelled);
+        }
+        write(path, &encoded?.bytes)?;
+        Ok(Written { metering, flaws })
+    }
+
+    /// The project that the command line makes the same picture from. It measures the still itself, so a locked
+    /// exposure becomes stops above what it will measure, as far as `view.exposure_ev` reaches. The white that the eye
+    /// adapts to is measured anew, too, and cannot be set: another size or quality may shift it a little.
+    fn portable(&self, own: &Metering) -> Project {
+        let mut project = self.project.clone();
+        if let Some(locked) = self.locked {
+            let [least, greatest] = EXPOSURE_EV;
+            let stops = (locked.exposure / own.exposure).log2();
+            let exposure_ev = project.view.exposure_ev + stops;
+            if exposure_ev.is_finite() {
+                project.view.exposure_ev = exposure_ev.clamp(least, greatest);
+            }
+        }
+        project
+    }
+}
