@@ -1,6 +1,7 @@
 //! The window, headless and by accessible label. No display is needed; what needs a graphics driver says so.
 
 mod controls;
+mod export;
 mod opening;
 mod real;
 mod shader;

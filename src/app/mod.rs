@@ -279,10 +279,9 @@ impl App {
                 Command::Dismiss => self.notice = None,
                 Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
                 Command::Export(wish) => {
-                    let order = wish.order(&self.document, self.meter.metering());
-                    order
-                        .into_iter()
-                        .for_each(|order| self.exporter.begin(order));
+                    if let Some(order) = wish.order(&self.document, self.meter.metering()) {
+                        self.exporter.begin(order);
+                    }
                 }
                 Command::CancelExport => self.exporter.cancel(),
             }

@@ -251,14 +251,15 @@ fn warn(ui: &mut Ui, words: &str) {
 
 /// The numbers that a picture is rendered with, in words.
 fn meaning(settings: &Settings) -> String {
-    let rays = match settings.samples_per_pixel {
-        1 => "one ray".to_owned(),
-        n => format!("{n} rays"),
+    let counted = |number: f64, unit: &str| {
+        let plural = if number == 1.0 { "" } else { "s" };
+        format!("{} {unit}{plural}", short(number))
     };
     format!(
-        "Steps of {} voxels, {} wavelengths, {rays} for each pixel. Camera and brightness as in the window.",
-        short(settings.step_voxels),
-        settings.wavelengths.count()
+        "Steps of {}, {} wavelengths, {} for each pixel. Camera and brightness as in the window.",
+        counted(settings.step_voxels, "voxel"),
+        settings.wavelengths.count(),
+        counted(f64::from(settings.samples_per_pixel), "ray"),
     )
 }
 
