@@ -34,6 +34,8 @@ use crate::volume::Volume;
 /// While tiles come in, the picture is drawn this often: each drawing takes time from the workers where the
 /// processor is also the graphics card.
 const FRAME: Duration = Duration::from_millis(30);
+/// While a file is read, how far it is is drawn this often.
+const LOADING_FRAME: Duration = Duration::from_millis(100);
 
 /// The window.
 pub struct App {
@@ -146,6 +148,17 @@ impl App {
         self.loader.begin(request);
     }
 
+    /// Stops whatever is being loaded; what is open stays. Where nothing is open yet, the built-in flame is loaded.
+    pub fn cancel_loading(&mut self) {
+        if self.loader.loading().is_none() {
+            return;
+        }
+        self.loader.cancel();
+        if self.document.volume().is_none() {
+            self.fall_back();
+        }
+    }
+
     /// Whether the engine's news are about the job submitted last.
     fn renders_newest(&self) -> bool {
         self.generation().is_some() && self.picture.generation() == self.generation()
@@ -211,13 +224,18 @@ impl App {
         let empty = self.document.volume().is_none() && self.loader.loading().is_none();
         let mut end = "";
         if empty && built_in_may_help {
-            // The settings were made for files that are not shown.
-            self.document.project.volume = VolumeSettings::default();
-            self.document.project.camera = CameraSettings::default();
-            self.loader.begin(Request::BuiltIn);
+            self.fall_back();
             end = ". The built-in flame is shown instead";
         }
         self.notice = Some(format!("{words}{end}"));
+    }
+
+    /// Loads the built-in flame in place of what the project names.
+    fn fall_back(&mut self) {
+        // The settings were made for files that are not shown.
+        self.document.project.volume = VolumeSettings::default();
+        self.document.project.camera = CameraSettings::default();
+        self.loader.begin(Request::BuiltIn);
     }
 
     /// Submits the document's job if it is another than the one submitted last.
@@ -307,6 +325,9 @@ impl eframe::App for App {
         self.retitle(ctx);
         // A hidden window draws nothing, yet what was loaded begins to render.
         self.follow();
+        if self.loader.loading().is_some() {
+            ctx.request_repaint_after(LOADING_FRAME);
+        }
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {

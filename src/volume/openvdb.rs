@@ -67,7 +67,10 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn read(&self) -> Result<FileVolume, VolumeError> {
         let (whole, grids) = if self.is_stream {
-            (self.stretch.part(0.0, READING), self.stretch.part(READING, 1.0))
+            (
+                self.stretch.part(0.0, READING),
+                self.stretch.part(READING, 1.0),
+            )
         } else {
             (self.stretch.part(0.0, 0.0), self.stretch)
         };
@@ -116,9 +119,14 @@ impl Reader<'_> {
                 AnyGrid::Float(g) => {
                     openvdb_tree::bricks(self.path, head, g.tree(), |value| value, &left, building)?
                 }
-                AnyGrid::Double(g) => {
-                    openvdb_tree::bricks(self.path, head, g.tree(), |value| value as f32, &left, building)?
-                }
+                AnyGrid::Double(g) => openvdb_tree::bricks(
+                    self.path,
+                    head,
+                    g.tree(),
+                    |value| value as f32,
+                    &left,
+                    building,
+                )?,
                 _ => return Err(self.damaged(&format!("grid {} changed its type", head.name))),
             };
             left.max_bytes = left.max_bytes.saturating_sub(grid.bytes());

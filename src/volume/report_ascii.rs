@@ -47,13 +47,7 @@ pub(super) fn read(
     let mut file = match header.as_slice() {
         [w, h, d] => dense(&mut text, [*w, *h, *d], limits, stretch)?,
         [w, h, d, count, background] => {
-            sparse(
-                &mut text,
-                [*w, *h, *d, *count],
-                background,
-                limits,
-                stretch,
-            )?
+            sparse(&mut text, [*w, *h, *d, *count], background, limits, stretch)?
         }
         _ => {
             let found = header.len();
@@ -93,7 +87,7 @@ fn dense(
             parsing.reach(at as u64, text.bytes.len() as u64)?;
         }
         if values.len() as u64 == count {
-            let rest = text.count_tokens() + 1;
+            let rest = text.count_tokens(stretch)? + 1;
             return Err(text.wrong_count(dims, &format!("{}", count + rest)));
         }
         values.push(text.number(at, token)?);

@@ -19,8 +19,10 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
         .frame(frame)
         .show(ui, |ui| {
             ui.horizontal_centered(|ui| {
-                if let Some(what) = app.loader.loading() {
-                    ui.add(Label::new(format!("Reading {what}…")).truncate());
+                if let Some(loading) = app.loader.loading() {
+                    let words =
+                        format!("{:.0} %  Reading {}…", 100.0 * loading.share, loading.words);
+                    ui.add(Label::new(words).truncate());
                     return;
                 }
                 let waiting = Progress::default();
