@@ -2,6 +2,7 @@
 
 mod fuzz;
 mod real;
+mod watching;
 
 use std::fs;
 use std::path::{Path, PathBuf};

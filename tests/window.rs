@@ -21,8 +21,13 @@ use sootlight::project::Project;
 
 /// A window so small that its pictures are quick, with a canvas of 168 × 292 pixels.
 fn window(project: Project) -> Harness<'static, App> {
+    window_of(project, [480.0, 320.0])
+}
+
+/// A window of this size in points, each of them a pixel.
+fn window_of(project: Project, size: [f32; 2]) -> Harness<'static, App> {
     let mut harness = Harness::builder()
-        .with_size([480.0, 320.0])
+        .with_size(size)
         .build_eframe(|creation| App::new(creation, project).expect("the system gives threads"));
     settle(&mut harness);
     harness

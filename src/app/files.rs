@@ -1,7 +1,7 @@
 //! Opening files without holding up the window: each load and each dialog runs on a named thread of its own.
 //!
 //! The newest request that can be read wins: what an older one brings waits until no newer one is left, and is
-//! dropped once a newer one has come. A failure is a sentence, never a panic.
+//! dropped once a newer one has come. What no longer counts is stopped. A failure is a sentence, never a panic.
 
 use std::panic::{AssertUnwindSafe, UnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -9,10 +9,12 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-use crate::volume::{self, Limits, Volume, VolumeError};
+use crate::volume::{self, Limits, Volume, VolumeError, Watch};
 
 /// A dialog that closes sooner was never seen by anybody.
 const TOO_QUICK_FOR_A_PERSON: Duration = Duration::from_millis(400);
+/// Share of a partner's load that opening it with the open volume takes: seldom must it be read again alone.
+const TOGETHER: f32 = 0.8;
 
 /// What to open.
 #[derive(Debug, Clone)]
@@ -21,7 +23,7 @@ pub(super) enum Request {
     BuiltIn,
     /// What the project names: settings stay as they are.
     Project(Vec<PathBuf>),
-    /// These files as one volume, instead of what is open.
+    /// These files as one volume, instead of what is open; the built-in flame if there are none.
     Files(Vec<PathBuf>),
     /// A file that may bring the missing field of the open volume, or else replaces it.
     Partner(Arc<Volume>, PathBuf),
@@ -54,8 +56,19 @@ struct Load {
     ticket: u64,
     /// What is being loaded, for a person.
     words: String,
+    /// How far its thread is, and the means to stop it.
+    watch: Watch,
     /// What it brought, while a newer load may yet fail.
     brought: Option<Outcome>,
+}
+
+/// A load on its way.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Loading<'a> {
+    /// What is being loaded, for a person.
+    pub(super) words: &'a str,
+    /// How much of it is done, 0 to 1.
+    pub(super) share: f32,
 }
 
 /// Loads in the background.
@@ -83,18 +96,23 @@ impl Loader {
         }
     }
 
-    /// What is being loaded, for a person.
-    pub(super) fn loading(&self) -> Option<&str> {
-        self.loads.last().map(|load| load.words.as_str())
+    /// The newest load.
+    pub(super) fn loading(&self) -> Option<Loading<'_>> {
+        self.loads.last().map(|load| Loading {
+            words: &load.words,
+            share: load.watch.share(),
+        })
     }
 
     /// Begins to load; an older load counts only if this one fails.
     pub(super) fn begin(&mut self, request: Request) {
         self.newest += 1;
         let ticket = self.newest;
+        let watch = Watch::default();
         self.loads.push(Load {
             ticket,
             words: request.words(),
+            watch: watch.clone(),
             brought: None,
         });
         let (sender, wake) = (self.sender.clone(), Arc::clone(&self.wake));
@@ -103,8 +121,8 @@ impl Loader {
             .name("sootlight-loader".into())
             .spawn(move || {
                 let again = request.clone();
-                let outcome =
-                    catch_unwind(AssertUnwindSafe(|| load(request))).unwrap_or_else(|_| {
+                let outcome = catch_unwind(AssertUnwindSafe(|| load(request, &watch)))
+                    .unwrap_or_else(|_| {
                         let words = format!(
                             "{}: reading it failed unexpectedly; nothing was opened",
                             again.words()
@@ -154,9 +172,16 @@ impl Loader {
         }
     }
 
-    /// What was polled is on show: an older load no longer counts.
+    /// Stops every load. What one of them may still bring is dropped.
+    pub(super) fn cancel(&mut self) {
+        for load in self.loads.drain(..) {
+            load.watch.cancel();
+        }
+    }
+
+    /// What was polled is on show: an older load no longer counts, and is stopped.
     pub(super) fn forget_older(&mut self) {
-        self.loads.clear();
+        self.cancel();
     }
 
     /// The next outcome, if there is one. Older loads go on counting until [`Loader::forget_older`].
@@ -187,6 +212,12 @@ impl Loader {
     }
 }
 
+impl Drop for Loader {
+    fn drop(&mut self) {
+        self.cancel();
+    }
+}
+
 impl Request {
     fn words(&self) -> String {
         let names = |paths: &[PathBuf]| {
@@ -195,19 +226,26 @@ impl Request {
         };
         match self {
             Self::BuiltIn => "the built-in flame".to_owned(),
+            Self::Files(paths) if paths.is_empty() => "the built-in flame".to_owned(),
             Self::Project(paths) | Self::Files(paths) => names(paths),
             Self::Partner(_, path) => path.display().to_string(),
         }
     }
 }
 
-fn load(request: Request) -> Outcome {
+fn load(request: Request, watch: &Watch) -> Outcome {
     let limits = Limits::default();
+    let open = |paths| volume::open_watched(paths, &limits, watch);
     let outcome = match &request {
-        Request::BuiltIn => Ok(Outcome::Shown(Arc::new(volume::procedural::torch()))),
-        Request::Project(paths) => volume::open(paths, &limits).map(|v| Outcome::Shown(v.into())),
-        Request::Files(paths) => volume::open(paths, &limits).map(|v| Outcome::Replaced(v.into())),
-        Request::Partner(open, path) => open_partner(open, path, &limits),
+        Request::BuiltIn => {
+            volume::procedural::torch_watched(watch).map(|v| Outcome::Shown(v.into()))
+        }
+        Request::Project(paths) => open(paths).map(|v| Outcome::Shown(v.into())),
+        Request::Files(paths) if paths.is_empty() => {
+            volume::procedural::torch_watched(watch).map(|v| Outcome::Replaced(v.into()))
+        }
+        Request::Files(paths) => open(paths).map(|v| Outcome::Replaced(v.into())),
+        Request::Partner(open, path) => open_partner(open, path, &limits, watch),
     };
     outcome.unwrap_or_else(|error| Outcome::Failed {
         request,
@@ -216,11 +254,18 @@ fn load(request: Request) -> Outcome {
 }
 
 /// The open volume with the file's field; or the file alone, where it has the same field.
-fn open_partner(open: &Volume, path: &Path, limits: &Limits) -> Result<Outcome, VolumeError> {
-    match open.with_file(path, limits) {
+fn open_partner(
+    open: &Volume,
+    path: &Path,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Outcome, VolumeError> {
+    match open.with_file_watched(path, limits, &watch.part(0.0, TOGETHER)) {
         Ok(both) => Ok(Outcome::Completed(both.into())),
+        Err(VolumeError::Cancelled) => Err(VolumeError::Cancelled),
         Err(together) => {
-            let alone = volume::open(&[path.to_owned()], limits)?;
+            let watch = watch.part(TOGETHER, 1.0);
+            let alone = volume::open_watched(&[path.to_owned()], limits, &watch)?;
             let partner = matches!(together, VolumeError::DimensionsDiffer { .. })
                 && alone
                     .grids
@@ -280,6 +325,124 @@ mod tests {
         );
     }
 
+    /// A load whose thread has not ended.
+    fn running(ticket: u64) -> Load {
+        Load {
+            ticket,
+            words: ticket.to_string(),
+            watch: Watch::default(),
+            brought: None,
+        }
+    }
+
+    fn shown() -> Outcome {
+        Outcome::Shown(Arc::new(volume::procedural::torch()))
+    }
+
+    fn words(loader: &Loader) -> Option<&str> {
+        loader.loading().map(|loading| loading.words)
+    }
+
+    /// A loader with two loads, and their watches.
+    fn with_two_watched() -> (Loader, [Watch; 2]) {
+        let mut loader = Loader::new(Arc::new(|| {}));
+        let loads = [1, 2].map(running);
+        let watches = loads.each_ref().map(|load| load.watch.clone());
+        loader.loads.extend(loads);
+        (loader, watches)
+    }
+
+    #[test]
+    fn cancelled_loads_vanish_at_once_and_what_they_bring_is_dropped() {
+        let (mut loader, watches) = with_two_watched();
+        // The older one has succeeded and waits for the newer one.
+        assert!(loader.sender.send((1, shown())).is_ok());
+        assert!(loader.poll().is_none());
+        loader.cancel();
+        assert!(loader.loading().is_none());
+        assert!(watches.iter().all(Watch::is_cancelled));
+        // The newer one had succeeded when it was told to stop.
+        assert!(loader.sender.send((2, shown())).is_ok());
+        assert!(loader.poll().is_none() && loader.loading().is_none());
+        // What is asked for next is not held up.
+        loader.loads.push(running(3));
+        assert!(loader.sender.send((3, shown())).is_ok());
+        assert!(matches!(loader.poll(), Some(Outcome::Shown(_))));
+    }
+
+    #[test]
+    fn what_no_longer_counts_is_stopped() {
+        let (mut loader, [older, newer]) = with_two_watched();
+        assert!(loader.sender.send((2, shown())).is_ok());
+        assert!(matches!(loader.poll(), Some(Outcome::Shown(_))));
+        assert!(!older.is_cancelled());
+        loader.forget_older();
+        assert!(older.is_cancelled() && !newer.is_cancelled());
+
+        let (loader, watches) = with_two_watched();
+        drop(loader);
+        assert!(watches.iter().all(Watch::is_cancelled));
+    }
+
+    #[test]
+    fn every_kind_of_request_stops_when_told() {
+        let open = Arc::new(volume::procedural::torch());
+        let file = PathBuf::from(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/tests/hostile/ascii_good_constant.txt"
+        ));
+        for request in [
+            Request::BuiltIn,
+            Request::Project(vec![file.clone()]),
+            Request::Files(vec![file.clone()]),
+            Request::Partner(open, file),
+        ] {
+            let name = request.words();
+            assert!(!matches!(
+                load(request.clone(), &Watch::default()),
+                Outcome::Failed { .. }
+            ));
+            let watch = Watch::default();
+            watch.cancel();
+            let Outcome::Failed { words, .. } = load(request, &watch) else {
+                panic!("{name} was loaded");
+            };
+            assert_eq!(words, VolumeError::Cancelled.to_string(), "{name}");
+            assert_eq!(watch.share(), 0.0, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_partner_that_must_be_read_alone_goes_on_where_the_pair_ended() {
+        let folder = tempfile::tempdir().unwrap();
+        let [first, second] = ["first_soot.txt", "second_soot.txt"].map(|name| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, "1 1 2\n1e-6 2e-6\n").unwrap();
+            path
+        });
+        let open = volume::open(&[first], &Limits::default()).unwrap();
+        let shares = Arc::new(std::sync::Mutex::new(Vec::new()));
+        let heard = Arc::clone(&shares);
+        let watch = Watch::with_listener(move |watch| heard.lock().unwrap().push(watch.share()));
+        let outcome = open_partner(&open, &second, &Limits::default(), &watch).unwrap();
+        assert!(matches!(outcome, Outcome::Replaced(_)));
+        let shares = shares.lock().unwrap();
+        assert!(
+            shares.is_sorted() && shares.last() == Some(&1.0),
+            "{shares:?}"
+        );
+        assert!(
+            shares.iter().any(|share| (0.1..TOGETHER).contains(share)),
+            "{shares:?}"
+        );
+        assert!(
+            shares
+                .iter()
+                .any(|share| (TOGETHER + 0.02..0.99).contains(share)),
+            "{shares:?}"
+        );
+    }
+
     #[test]
     fn a_dialog_that_nobody_saw_is_told_from_one_that_was_closed() {
         assert_eq!(answer(|| Some(7)), Answer::Chosen(7));
@@ -293,7 +456,6 @@ mod tests {
 
     #[test]
     fn an_older_load_wins_only_once_the_newer_one_failed() {
-        let shown = || Outcome::Shown(Arc::new(volume::procedural::torch()));
         let failed = || Outcome::Failed {
             request: Request::BuiltIn,
             words: String::new(),
@@ -301,14 +463,10 @@ mod tests {
         // Two loads run; the older one is the first to end.
         let with_two = || {
             let mut loader = Loader::new(Arc::new(|| {}));
-            loader.loads.extend([1, 2].map(|ticket| Load {
-                ticket,
-                words: ticket.to_string(),
-                brought: None,
-            }));
+            loader.loads.extend([1, 2].map(running));
             assert!(loader.sender.send((1, shown())).is_ok());
             assert!(loader.poll().is_none());
-            assert_eq!(loader.loading(), Some("2"));
+            assert_eq!(words(&loader), Some("2"));
             loader
         };
 

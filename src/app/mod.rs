@@ -38,6 +38,8 @@ use crate::volume::Volume;
 /// While tiles come in, the picture is drawn this often: each drawing takes time from the workers where the
 /// processor is also the graphics card.
 const FRAME: Duration = Duration::from_millis(30);
+/// While a file is read, how far it is is drawn this often.
+const LOADING_FRAME: Duration = Duration::from_millis(100);
 
 /// The window.
 pub struct App {
@@ -156,6 +158,17 @@ impl App {
         self.loader.begin(request);
     }
 
+    /// Stops whatever is being loaded; what is open stays. Where nothing is open yet, the built-in flame is loaded.
+    pub fn cancel_loading(&mut self) {
+        if self.loader.loading().is_none() {
+            return;
+        }
+        self.loader.cancel();
+        if self.document.volume().is_none() {
+            self.fall_back();
+        }
+    }
+
     /// Whether the engine's news are about the job submitted last.
     fn renders_newest(&self) -> bool {
         self.generation().is_some() && self.picture.generation() == self.generation()
@@ -226,13 +239,18 @@ impl App {
         let empty = self.document.volume().is_none() && self.loader.loading().is_none();
         let mut end = "";
         if empty && built_in_may_help {
-            // The settings were made for files that are not shown.
-            self.document.project.volume = VolumeSettings::default();
-            self.document.project.camera = CameraSettings::default();
-            self.loader.begin(Request::BuiltIn);
+            self.fall_back();
             end = ". The built-in flame is shown instead";
         }
         self.notice = Some(format!("{words}{end}"));
+    }
+
+    /// Loads the built-in flame in place of what the project names.
+    fn fall_back(&mut self) {
+        // The settings were made for files that are not shown.
+        self.document.project.volume = VolumeSettings::default();
+        self.document.project.camera = CameraSettings::default();
+        self.loader.begin(Request::BuiltIn);
     }
 
     /// Submits the document's job if it is another than the one submitted last.
@@ -268,6 +286,7 @@ impl App {
                 Command::Ask => self.loader.ask(),
                 Command::Open(paths) => self.open(paths),
                 Command::BuiltIn => self.loader.begin(Request::Files(Vec::new())),
+                Command::CancelLoading => self.cancel_loading(),
                 Command::Undo => self.document.undo(),
                 Command::Redo => self.document.redo(),
                 Command::FrameAll => self.frame_all(),
@@ -325,6 +344,11 @@ impl App {
         if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::O))) {
             self.loader.ask();
         }
+        if self.loader.loading().is_some()
+            && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
+        {
+            self.cancel_loading();
+        }
         if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::N)) {
             self.panels.hidden = !self.panels.hidden;
         }
@@ -372,6 +396,9 @@ impl eframe::App for App {
         self.retitle(ctx);
         // A hidden window draws nothing, yet what was loaded begins to render.
         self.follow();
+        if self.loader.loading().is_some() {
+            ctx.request_repaint_after(LOADING_FRAME);
+        }
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
@@ -382,7 +409,7 @@ impl eframe::App for App {
         // Panels change the document, and ask for what they cannot do themselves.
         let before = self.document.project.clone();
         let mut commands = Vec::new();
-        panels::status(ui, self);
+        panels::status(ui, self, &mut commands);
         let flaws: Vec<String> = self.flaws().into_iter().map(String::from).collect();
         self.panels
             .show(ui, &mut self.document, &self.recent, &flaws, &mut commands);

@@ -87,7 +87,7 @@ fn dense(
             parsing.reach(at as u64, text.bytes.len() as u64)?;
         }
         if values.len() as u64 == count {
-            let rest = text.count_tokens() + 1;
+            let rest = text.count_tokens(stretch)? + 1;
             return Err(text.wrong_count(dims, &format!("{}", count + rest)));
         }
         values.push(text.number(at, token)?);

@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::IVec3;
 
 use super::lattice::{IndexBox, MAX_COORDINATE};
+use super::watch::Stretch;
 use super::{Limits, VolumeError};
 
 /// Voxels of a box.
@@ -46,8 +47,16 @@ impl<'a> Text<'a> {
         Some((start, &bytes[start..end]))
     }
 
-    pub(super) fn count_tokens(&mut self) -> u64 {
-        std::iter::from_fn(|| self.next_token()).count() as u64
+    /// The numbers that are left.
+    pub(super) fn count_tokens(&mut self, stretch: Stretch) -> Result<u64, VolumeError> {
+        let mut count = 0;
+        while self.next_token().is_some() {
+            count += 1;
+            if count % 4096 == 0 {
+                stretch.check()?;
+            }
+        }
+        Ok(count)
     }
 
     /// The tokens of the first line that is not blank; the cursor stays at its end.

@@ -15,10 +15,14 @@ const CALLS: f32 = 200.0;
 
 /// Watches one opening of files from any thread: how far it is, and whether it shall stop.
 ///
-/// Clones watch the same open. A watch serves one open; cancelled once, it stays so.
-#[derive(Clone, Default)]
+/// Clones watch the same open. A watch serves one open, and a [part](Watch::part) of it one of several that follow
+/// each other; cancelled once, it stays so.
+#[derive(Clone)]
 pub struct Watch {
     shared: Arc<Shared>,
+    /// The part of the share that this open covers.
+    from: f32,
+    to: f32,
 }
 
 #[derive(Default)]
@@ -29,15 +33,39 @@ struct Shared {
     listener: Option<Box<dyn Fn(&Watch) + Send + Sync>>,
 }
 
+impl Default for Watch {
+    fn default() -> Self {
+        Self::of(Shared::default())
+    }
+}
+
 impl Watch {
+    fn of(shared: Shared) -> Self {
+        Self {
+            shared: Arc::new(shared),
+            from: 0.0,
+            to: 1.0,
+        }
+    }
+
     /// A watch that calls `listener` whenever the share has grown by a two-hundredth or reached 1. The calls come
     /// from the threads that read, which wait for it: it should be quick.
     pub fn with_listener(listener: impl Fn(&Self) + Send + Sync + 'static) -> Self {
+        Self::of(Shared {
+            listener: Some(Box::new(listener)),
+            ..Shared::default()
+        })
+    }
+
+    /// A watch for an open that is only a part of the work, from one share of it to another, 0 to 1. Share and
+    /// cancelling are those of the whole work.
+    #[must_use]
+    pub fn part(&self, from: f32, to: f32) -> Self {
+        let Stretch { from, to, .. } = self.whole().part(from, to);
         Self {
-            shared: Arc::new(Shared {
-                listener: Some(Box::new(listener)),
-                ..Shared::default()
-            }),
+            shared: Arc::clone(&self.shared),
+            from,
+            to,
         }
     }
 
@@ -61,8 +89,8 @@ impl Watch {
     pub(super) fn whole(&self) -> Stretch<'_> {
         Stretch {
             watch: self,
-            from: 0.0,
-            to: 1.0,
+            from: self.from,
+            to: self.to,
         }
     }
 
@@ -100,10 +128,9 @@ pub(super) struct Stretch<'a> {
 impl<'a> Stretch<'a> {
     /// A part of this stretch; `from` and `to` are shares of it, 0 to 1.
     pub(super) fn part(self, from: f32, to: f32) -> Self {
-        let length = self.to - self.from;
         Self {
-            from: self.from + from * length,
-            to: self.from + to * length,
+            from: self.at(from),
+            to: self.at(to),
             ..self
         }
     }
@@ -151,8 +178,13 @@ impl<'a> Stretch<'a> {
     }
 
     fn tell(self, done: u64, all: u64) {
-        let share = done.min(all) as f32 / all.max(1) as f32;
-        self.watch.reach(self.from + share * (self.to - self.from));
+        self.watch
+            .reach(self.at(done.min(all) as f32 / all.max(1) as f32));
+    }
+
+    /// A share of this stretch as a share of everything; the ends are met exactly.
+    fn at(self, share: f32) -> f32 {
+        self.from * (1.0 - share) + self.to * share
     }
 }
 

@@ -51,7 +51,7 @@ fn wait_for(harness: &mut Harness<'_, App>, words: &str) {
 }
 
 /// Size, pixels as levels of 8 bits, and the scene of a PNG.
-fn read_png(path: &Path) -> ([u32; 2], Vec<u8>, Project) {
+pub(super) fn read_png(path: &Path) -> ([u32; 2], Vec<u8>, Project) {
     let bytes = std::fs::read(path).expect("the picture was written");
     let mut reader = png::Decoder::new(Cursor::new(bytes))
         .read_info()

@@ -61,6 +61,58 @@ fn two_bad_files_give_the_built_in_flame() {
 }
 
 #[test]
+fn a_first_load_that_is_cancelled_gives_the_built_in_flame() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (soot, _) = soot_and_heat(folder.path());
+    let mut project = Project::default();
+    project.volume.path = vec![soot];
+    project.volume.voxel_size_m = Some(0.02);
+    let mut harness = Harness::builder()
+        .with_size([480.0, 320.0])
+        .build_eframe(|creation| {
+            let mut app = App::new(creation, project).expect("the system gives threads");
+            app.cancel_loading();
+            app
+        });
+    settle(&mut harness);
+    harness.get_by_label("built-in flame");
+    assert_eq!(
+        harness.state().document().project.volume,
+        Project::default().volume
+    );
+    assert_eq!(harness.state().notice(), None);
+}
+
+#[test]
+fn a_cancelled_load_leaves_the_scene_as_it_was() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (soot, heat) = soot_and_heat(folder.path());
+    let mut harness = window(Project::default());
+    let before = (
+        harness.state().generation(),
+        harness.state().document().project.clone(),
+    );
+    harness.state_mut().open(vec![soot]);
+    harness.state_mut().open(vec![heat]);
+    assert!(!harness.state().is_settled());
+    harness.state_mut().cancel_loading();
+    // Nothing is loaded any more, without waiting for the threads that read.
+    assert!(harness.state().is_settled());
+    std::thread::sleep(Duration::from_millis(100));
+    settle(&mut harness);
+    let after = (
+        harness.state().generation(),
+        harness.state().document().project.clone(),
+    );
+    assert_eq!(after, before);
+    assert_eq!(harness.state().notice(), None);
+    harness.get_by_label("built-in flame");
+    // Without a load there is nothing to cancel.
+    harness.state_mut().cancel_loading();
+    assert!(harness.state().is_settled());
+}
+
+#[test]
 fn a_file_with_nothing_to_render_leaves_the_scene_and_says_why() {
     let mut harness = window(Project::default());
     set_slider(&mut harness, "Soot radius", 60.0);

@@ -35,6 +35,8 @@ pub(super) enum Command {
     Open(Vec<PathBuf>),
     /// Show the built-in flame.
     BuiltIn,
+    /// Stop reading files.
+    CancelLoading,
     /// Take the last change back.
     Undo,
     /// Take the last undo back.

@@ -4,7 +4,9 @@ use std::time::Duration;
 
 use egui::{Align, Frame, Label, Layout, Margin, Panel, ProgressBar, RichText, Ui, vec2};
 
+use super::Command;
 use crate::app::App;
+use crate::app::files::Loading;
 use crate::app::theme::WARNING;
 use crate::engine::picture::Progress;
 use crate::render::Pass;
@@ -14,7 +16,7 @@ const HEIGHT: f32 = 28.0;
 const MARGIN: i8 = 3;
 
 /// Draws the line.
-pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
+pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let frame = Frame::new()
         .fill(ui.visuals().panel_fill)
         .inner_margin(Margin::symmetric(12, MARGIN));
@@ -27,8 +29,8 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
             ui.set_min_height(HEIGHT - 2.0 * f32::from(MARGIN));
             ui.horizontal_centered(|ui| {
                 super::export::line(ui, app);
-                if app.loader.loading().is_some() {
-                    loading(ui, app);
+                if let Some(load) = app.loader.loading() {
+                    loading(ui, &load, commands);
                 } else {
                     rendering(ui, app);
                 }
@@ -40,12 +42,25 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App) {
         });
 }
 
-/// What is being read.
-fn loading(ui: &mut Ui, app: &App) {
-    let Some(what) = app.loader.loading() else {
-        return;
-    };
-    ui.add(Label::new(format!("Reading {what}…")).truncate());
+/// What is being read, how far, and a way to stop it.
+fn loading(ui: &mut Ui, loading: &Loading<'_>, commands: &mut Vec<Command>) {
+    bar(ui, loading.share);
+    let stop = ui.button("Stop reading");
+    if stop
+        .on_hover_text("What is open stays as it is (Esc).")
+        .clicked()
+    {
+        commands.push(Command::CancelLoading);
+    }
+    let words = format!("{:.0} %  Reading {}…", 100.0 * loading.share, loading.words);
+    ui.add(Label::new(words).truncate());
+}
+
+fn bar(ui: &mut Ui, share: f32) {
+    let bar = ProgressBar::new(share)
+        .desired_width(BAR_WIDTH)
+        .desired_height(6.0);
+    ui.add(bar);
 }
 
 /// How far the picture is and how fast, as much of it as there is room for.
@@ -60,10 +75,7 @@ fn rendering(ui: &mut Ui, app: &App) {
         .submitted
         .as_ref()
         .map_or(Duration::ZERO, |submitted| submitted.at.elapsed());
-    let bar = ProgressBar::new(share(progress))
-        .desired_width(BAR_WIDTH)
-        .desired_height(6.0);
-    ui.add(bar);
+    bar(ui, share(progress));
     for (words, width) in cells(progress, since) {
         if ui.available_width() < width + FLAWS_WIDTH {
             break;
