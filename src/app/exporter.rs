@@ -400,12 +400,22 @@ mod tests {
     #[test]
     fn what_is_cancelled_or_dropped_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
-        let huge = || order(folder.path().join("a.exr"), 8192);
+        let endless = || {
+            let mut order = order(folder.path().join("a.exr"), 256);
+            order.project.render.samples_per_pixel = Some(4096);
+            order
+        };
         let mut exporter = Exporter::new(Arc::new(|| {}));
-        exporter.begin(huge());
-        exporter.cancel();
-        assert_eq!(outcome(&mut exporter), Outcome::Cancelled);
-        exporter.begin(huge());
+        // At once, and in the midst of it.
+        for share in [-1.0, 0.0] {
+            exporter.begin(endless());
+            while exporter.running().unwrap().1.share <= share {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            exporter.cancel();
+            assert_eq!(outcome(&mut exporter), Outcome::Cancelled);
+        }
+        exporter.begin(endless());
         drop(exporter);
         assert!(is_empty(&folder));
     }

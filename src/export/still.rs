@@ -137,3 +137,89 @@ impl Still {
         project
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use std::fs;
+    use std::sync::atomic::AtomicU64;
+
+    use super::*;
+    use crate::export::test_film;
+    use crate::volume::procedural;
+
+    /// A still of the built-in flame, with a frame that is not its own.
+    fn still(exposure_ev: f64, locked: Option<f64>) -> (Still, Frame) {
+        let mut project = Project::default();
+        project.view.exposure_ev = exposure_ev;
+        let locked = locked.map(|exposure| Metering {
+            exposure,
+            white_xyz: [1.0; 3],
+            bright_y: 1.0,
+        });
+        let frame = Frame {
+            film: test_film(),
+            rays: 0,
+            samples: 0,
+            flaws: Flaws::default(),
+        };
+        let still = Still::new(&project, &Arc::new(procedural::torch()), locked);
+        (still.unwrap(), frame)
+    }
+
+    #[test]
+    fn a_locked_exposure_becomes_stops_above_what_will_be_measured() {
+        let own = Metering::of(&test_film());
+        let stops = |exposure_ev, locked| {
+            let (still, _) = still(exposure_ev, locked);
+            still.portable(&own).view.exposure_ev
+        };
+        assert_eq!(stops(0.5, None), 0.5);
+        assert!((stops(0.5, Some(8.0 * own.exposure)) - 3.5).abs() < 1e-9);
+        assert!((stops(0.5, Some(own.exposure / 2.0)) + 0.5).abs() < 1e-9);
+        assert_eq!(stops(0.0, Some(1e30 * own.exposure)), EXPOSURE_EV[1]);
+        assert_eq!(stops(0.0, Some(1e-30 * own.exposure)), EXPOSURE_EV[0]);
+    }
+
+    #[test]
+    fn a_cancelled_write_leaves_what_was_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        fs::write(&path, "before").unwrap();
+        let (still, frame) = still(0.0, None);
+        let cancelled = Cancel::when_passed(Arc::new(AtomicU64::new(1)), 0);
+        for format in Format::ALL {
+            let written = still.write(&frame, format, &path, &cancelled);
+            assert!(matches!(written, Err(ExportError::Cancelled)), "{format:?}");
+            assert_eq!(fs::read(&path).unwrap(), b"before");
+        }
+        // The encoders stop by themselves, too, before they are through.
+        let provenance = Provenance::new(&still.project, &Flaws::default());
+        let encoded = exr::encode(&frame.film, &provenance, &cancelled);
+        assert!(matches!(encoded, Err(ExportError::Cancelled)));
+        let view = BakedView::new(&Metering::of(&frame.film).view(&still.project.view()));
+        let encoded = png::encode(
+            &frame.film,
+            &view,
+            png::Bits::Eight,
+            &provenance,
+            &cancelled,
+        );
+        assert!(matches!(encoded, Err(ExportError::Cancelled)));
+        let written = still.write(&frame, Format::Exr, &path, &Cancel::never());
+        assert!(written.is_ok() && fs::metadata(&path).unwrap().len() > 100);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_picture_does_not_take_the_place_of_its_volume() {
+        let folder = tempfile::tempdir().unwrap();
+        let volume = folder.path().join("fire.png");
+        fs::write(&volume, "x").unwrap();
+        let by_another_name = folder.path().join(".").join("fire.png");
+        let sources = [folder.path().join("other.vdb"), volume];
+        let refused = check_target(&by_another_name, &sources);
+        assert!(matches!(refused, Err(ExportError::OwnVolume { .. })));
+        assert!(check_target(&folder.path().join("new.png"), &sources).is_ok());
+    }
+}

@@ -55,6 +55,16 @@ fn one_file_is_not_asked_to_hold_two_things() {
 }
 
 #[test]
+fn a_picture_is_not_written_over_its_own_volume() {
+    let place = Place::new();
+    fs::copy(place.path("density.txt"), place.path("density.png")).unwrap();
+    let words = "render density.png temperature.txt --size 16x9 -o ./density.png";
+    let [_, error] = place.expect(1, words);
+    assert!(error.contains("of the volume itself"), "{error}");
+    assert_eq!(place.text("density.png"), place.text("density.txt"));
+}
+
+#[test]
 fn what_cannot_be_written_is_said_before_anything_is_read() {
     let place = Place::new();
     for name in ["locked.png", "locked.json"] {

@@ -131,6 +131,11 @@ fn as_i_see_it_is_the_picture_on_show() {
     assert_eq!(after, before);
     assert_eq!(scene.soot, after.1.soot);
     assert_eq!(scene.render.step_voxels, Some(1.5));
+    let seen_from = app.job().expect("a job").camera;
+    assert_eq!(
+        (scene.camera.eye, scene.camera.fov_deg),
+        (Some(seen_from.eye), Some(seen_from.fov_deg))
+    );
 
     // It is there: the next one replaces it, and says so.
     harness.get_by_label("fire.png exists");

@@ -4,7 +4,8 @@ mod size;
 mod target;
 
 use egui::{
-    Align2, Button, Context, DragValue, Grid, Label, ProgressBar, RichText, TextEdit, Ui, Window,
+    Align2, Button, Context, DragValue, Grid, Label, ProgressBar, RichText, ScrollArea, TextEdit,
+    Ui, Window,
 };
 
 use self::size::Size;
@@ -17,7 +18,9 @@ use crate::export::Format;
 use crate::render::{MAX_SIDE, Settings};
 
 /// Width of the window's contents in points.
-const WIDTH: f32 = 372.0;
+const WIDTH: f32 = 440.0;
+/// Height of its title and margins in points, with some to spare.
+const BAR: f32 = 70.0;
 
 /// What the window remembers between frames.
 #[derive(Debug, Default)]
@@ -52,14 +55,16 @@ impl ExportPanel {
         let whole = ctx.content_rect();
         Window::new("Export")
             .collapsible(false)
-            .resizable(false)
             .pivot(Align2::CENTER_CENTER)
             .default_pos(whole.center())
-            .vscroll(true)
-            .max_height(whole.height() - 60.0)
+            .auto_sized()
             .show(ctx, |ui| {
-                ui.set_width(WIDTH.min(whole.width() - 40.0));
-                self.contents(ui, document, exporter, canvas, commands);
+                ScrollArea::vertical()
+                    .max_height(whole.height() - BAR)
+                    .show(ui, |ui| {
+                        ui.set_width(WIDTH.min(whole.width() - 40.0));
+                        self.contents(ui, document, exporter, canvas, commands);
+                    });
             });
     }
 
@@ -81,6 +86,9 @@ impl ExportPanel {
             self.quality(ui);
             ui.end_row();
         });
+        if let Some(words) = self.target.problem() {
+            warn(ui, words);
+        }
         let size = self.size.of(canvas);
         let settings = self.exactness.of(&document.project).settings(size);
         match &settings {
@@ -111,26 +119,19 @@ impl ExportPanel {
     }
 
     fn file(&mut self, ui: &mut Ui) {
+        self.target.receive();
         let name = ui.label("File");
-        ui.vertical(|ui| {
-            ui.horizontal(|ui| {
-                let width = ui.available_width() - 90.0;
-                let field = TextEdit::singleline(&mut self.target.text).desired_width(width);
-                ui.add(field)
-                    .labelled_by(name.id)
-                    .on_hover_text(self.target.whereabouts());
-                let choose = ui
-                    .button("Choose…")
-                    .on_hover_text("Choose a folder and a name with the desktop's dialog.");
-                if choose.clicked() {
-                    self.target.ask(ui.ctx());
-                }
-            });
-            self.target.receive();
-            if self.target.no_dialog {
-                warn(ui, "This desktop offers no file dialog: type a path above.");
-            } else if let Some(words) = self.target.problem() {
-                warn(ui, words);
+        ui.horizontal(|ui| {
+            let width = ui.available_width() - 90.0;
+            let field = TextEdit::singleline(&mut self.target.text).desired_width(width);
+            ui.add(field)
+                .labelled_by(name.id)
+                .on_hover_text(self.target.whereabouts());
+            let choose = ui
+                .button("Choose…")
+                .on_hover_text("Choose a folder and a name with the desktop's dialog.");
+            if choose.clicked() {
+                self.target.ask(ui.ctx());
             }
         });
     }
@@ -157,31 +158,35 @@ impl ExportPanel {
 
     fn sides(&mut self, ui: &mut Ui, canvas: [u32; 2]) {
         ui.label("Size");
-        ui.vertical(|ui| {
-            ui.horizontal(|ui| {
-                for (axis, name) in ["Width", "Height"].into_iter().enumerate() {
-                    let mut side = self.size.of(canvas)[axis];
-                    let number = DragValue::new(&mut side)
-                        .range(1..=MAX_SIDE)
-                        .update_while_editing(false);
-                    let number = ui.add(number).accessible_name(name);
-                    if number.on_hover_text(format!("{name} in pixels.")).changed() {
-                        self.size.set_side(axis, side, canvas);
-                    }
-                    ui.label(["×", "pixels"][axis]);
+        ui.horizontal(|ui| {
+            for (axis, name) in ["Width", "Height"].into_iter().enumerate() {
+                let mut side = self.size.of(canvas)[axis];
+                let number = DragValue::new(&mut side)
+                    .range(1..=MAX_SIDE)
+                    .update_while_editing(false);
+                let number = ui.add(number).accessible_name(name);
+                if number.on_hover_text(format!("{name} in pixels.")).changed() {
+                    self.size.set_side(axis, side, canvas);
                 }
-                let mut keeps = self.size.keeps_shape;
-                ui.checkbox(&mut keeps, "Keep shape")
-                    .on_hover_text("When a side is changed, the other follows.");
+                ui.label(["×", "pixels"][axis]);
+            }
+            let mut keeps = self.size.keeps_shape();
+            let keep = ui.checkbox(&mut keeps, "Keep shape");
+            if keep
+                .on_hover_text("When a side is changed, the other follows.")
+                .changed()
+            {
                 self.size.keep_shape(keeps, canvas);
-            });
-            ui.horizontal_wrapped(|ui| {
-                for (words, size) in size::presets(canvas) {
-                    if ui.small_button(words).clicked() {
-                        self.size.set(size);
-                    }
+            }
+        });
+        ui.end_row();
+        ui.label("");
+        ui.horizontal_wrapped(|ui| {
+            for (words, size) in size::presets(canvas) {
+                if ui.button(words).clicked() {
+                    self.size.set(size);
                 }
-            });
+            }
         });
     }
 

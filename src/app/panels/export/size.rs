@@ -13,7 +13,7 @@ pub(super) struct Size {
     /// Two sides whose ratio is kept. Not those of the last edit, whose rounding would add up. `None`: the canvas.
     shape: Option<[u32; 2]>,
     /// Whether one side follows the other.
-    pub(super) keeps_shape: bool,
+    keeps_shape: bool,
 }
 
 impl Default for Size {
@@ -51,9 +51,14 @@ impl Size {
         }
     }
 
-    /// Keeps the present shape from now on, or no longer.
+    /// Whether one side follows the other.
+    pub(super) fn keeps_shape(&self) -> bool {
+        self.keeps_shape
+    }
+
+    /// Locks the present shape, or sets the sides free.
     pub(super) fn keep_shape(&mut self, keeps: bool, canvas: [u32; 2]) {
-        if keeps && !self.keeps_shape {
+        if keeps {
             self.shape = Some(self.of(canvas));
         }
         self.keeps_shape = keeps;

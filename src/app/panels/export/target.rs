@@ -25,7 +25,7 @@ pub(super) struct Target {
     /// The dialog that is open.
     dialog: Option<Receiver<Answer<PathBuf>>>,
     /// Whether this desktop turned out to have no dialog.
-    pub(super) no_dialog: bool,
+    no_dialog: bool,
     looked_up: Option<LookedUp>,
 }
 
@@ -80,11 +80,14 @@ impl Target {
         }
     }
 
-    /// Why nothing can be written by this name.
+    /// Why nothing can be written by this name, or chosen.
     pub(super) fn problem(&self) -> Option<&'static str> {
-        match self.format() {
-            Some(_) => None,
-            None => Some("The name must end with .png or .exr."),
+        if self.format().is_none() {
+            Some("The name must end with .png or .exr.")
+        } else if self.no_dialog {
+            Some("This desktop offers no file dialog: type a path.")
+        } else {
+            None
         }
     }
 
