@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-pub use canvas::Display;
+pub use canvas::{Display, Mapping};
 pub use document::{Document, FieldRow};
 pub use start::{AppError, run};
 
@@ -144,6 +144,11 @@ impl App {
         };
         self.notice = None;
         self.loader.begin(request);
+    }
+
+    /// Moves the camera so that all of the flame is seen, from the side that it is seen from now.
+    pub fn frame_all(&mut self) {
+        self.document.frame_all();
     }
 
     /// Whether the engine's news are about the job submitted last.
@@ -321,16 +326,23 @@ impl eframe::App for App {
         let flaws: Vec<String> = self.flaws().into_iter().map(String::from).collect();
         self.panels
             .show(ui, &mut self.document, &flaws, &mut commands);
-        self.document
-            .remember(before, ctx.input(|input| input.pointer.any_down()));
 
         // The picture has all the space that is left.
         let view = self.view();
-        let size = self.canvas.show(ui, &self.picture, &view);
-        self.canvas_size = Some(size);
+        let camera = self.document.last_job().map(|job| job.camera);
+        let shown = self.canvas.show(ui, &self.picture, &view, camera);
+        self.canvas_size = Some(shown.size);
         panels::overlay(ui, self, &mut commands);
 
+        if let Some(camera) = &shown.camera {
+            self.document.move_camera(camera);
+        }
+        if shown.frame_all {
+            self.frame_all();
+        }
         self.obey(commands);
+        let held = ctx.input(|input| input.pointer.any_down()) || shown.scrolling;
+        self.document.remember(before, held);
         self.follow();
     }
 }
