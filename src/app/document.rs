@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::project::{CameraSettings, Job, Project, ProjectError, VolumeSettings};
+use crate::scene::{Camera, flame};
 use crate::volume::{FieldKind, Recognised, Volume, recognise};
 
 /// Steps that can be taken back.
@@ -229,6 +230,34 @@ impl Document {
     /// The project to be changed, beside the last valid job.
     pub fn parts(&mut self) -> (&mut Project, Option<&Job>) {
         (&mut self.project, self.job.as_ref())
+    }
+
+    /// Looks from here on with this camera, whatever the flame's size.
+    pub fn move_camera(&mut self, camera: &Camera) {
+        self.project.camera = CameraSettings {
+            eye: Some(camera.eye),
+            target: Some(camera.target),
+            up: Some(camera.up),
+            fov_deg: Some(camera.fov_deg),
+        };
+    }
+
+    /// Moves the camera so that all of the flame is seen, from the side that it is seen from now. From the front that
+    /// is the camera of a project that sets none, which goes on to frame the flame when the window's size changes.
+    pub fn frame_all(&mut self) {
+        let Some(job) = &self.job else { return };
+        if job.camera.is_at_the_front() {
+            self.project.camera = CameraSettings {
+                fov_deg: self.project.camera.fov_deg,
+                ..CameraSettings::default()
+            };
+            return;
+        }
+        let placement = &job.flame.placement;
+        let bounds = flame::world_bounds(&job.volume, &job.flame.maps, placement);
+        let [width, height] = job.settings.size.map(f64::from);
+        let framed = job.camera.framed(&bounds, width / height);
+        self.move_camera(&framed);
     }
 
     /// Why the project as it stands cannot be rendered, in words.

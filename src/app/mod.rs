@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-pub use canvas::Display;
+pub use canvas::{Display, Mapping};
 pub use document::{Document, FieldRow};
 pub use start::{AppError, run};
 
@@ -169,6 +169,11 @@ impl App {
         }
     }
 
+    /// Moves the camera so that all of the flame is seen, from the side that it is seen from now.
+    pub fn frame_all(&mut self) {
+        self.document.frame_all();
+    }
+
     /// Whether the engine's news are about the job submitted last.
     fn renders_newest(&self) -> bool {
         self.generation().is_some() && self.picture.generation() == self.generation()
@@ -289,7 +294,11 @@ impl App {
                 Command::CancelLoading => self.cancel_loading(),
                 Command::Undo => self.document.undo(),
                 Command::Redo => self.document.redo(),
-                Command::FrameAll => self.frame_all(),
+                Command::FrameAll => {
+                    let before = self.document.project.clone();
+                    self.frame_all();
+                    self.document.remember(before, false);
+                }
                 Command::Mend(mend) => self.edit(|project| mend.apply(project)),
                 Command::AutoExposure => {
                     self.meter.measure(self.picture.film());
@@ -357,10 +366,6 @@ impl App {
         }
     }
 
-    fn frame_all(&mut self) {
-        self.edit(|project| project.camera = CameraSettings::default());
-    }
-
     fn retitle(&mut self, ctx: &egui::Context) {
         let title = format!("Sootlight — {}", self.document.title());
         if title != self.title {
@@ -413,19 +418,27 @@ impl eframe::App for App {
         let flaws: Vec<String> = self.flaws().into_iter().map(String::from).collect();
         self.panels
             .show(ui, &mut self.document, &self.recent, &flaws, &mut commands);
-        self.document.remember(before, is_held(&ctx));
 
         // The picture has all the space that is left.
         let canvas = ui.available_rect_before_wrap();
         let view = self.view();
-        let size = self.canvas.show(ui, &self.picture, &view);
-        self.canvas_size = Some(size);
+        let camera = self.document.last_job().map(|job| job.camera);
+        let shown = self.canvas.show(ui, &self.picture, &view, camera);
+        self.canvas_size = Some(shown.size);
         panels::overlay(ui, self, canvas, &mut commands);
-        let size = self.document.fixed_size.unwrap_or(size);
+        let size = self.document.fixed_size.unwrap_or(shown.size);
         self.panels
             .export
             .show(&ctx, &self.document, &self.exporter, size, &mut commands);
 
+        if let Some(camera) = &shown.camera {
+            self.document.move_camera(camera);
+        }
+        if shown.frame_all {
+            self.frame_all();
+        }
+        self.document
+            .remember(before, is_held(&ctx) || shown.scrolling);
         self.obey(commands);
         self.follow();
     }

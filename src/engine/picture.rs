@@ -4,19 +4,26 @@
 use std::time::Duration;
 
 use super::{Generation, News, Update};
-use crate::render::{Film, Flaws, Pass};
+use crate::render::{Film, Flaws, Pass, Tile};
 
 /// The film on show and how far it is.
 #[derive(Debug)]
 pub struct Picture {
-    shown: Film,
+    shown: Sheet,
     /// Tiles of the newest job, while its first pass is not whole.
-    coming: Option<Film>,
+    coming: Option<Sheet>,
     generation: Option<Generation>,
     /// How far the newest job is.
     pub progress: Progress,
     /// Rises whenever the shown film changes.
     pub version: u64,
+}
+
+/// A film, and how coarse each of its pixels is.
+#[derive(Debug)]
+struct Sheet {
+    film: Film,
+    strides: Vec<u8>,
 }
 
 /// How far a job is.
@@ -50,7 +57,7 @@ impl Picture {
     /// A black picture.
     pub fn new(size: [u32; 2]) -> Self {
         Self {
-            shown: Film::new(size),
+            shown: Sheet::new(size),
             coming: None,
             generation: None,
             progress: Progress::default(),
@@ -60,7 +67,12 @@ impl Picture {
 
     /// The film to show.
     pub fn film(&self) -> &Film {
-        &self.shown
+        &self.shown.film
+    }
+
+    /// For each pixel of the film, row by row, the stride of the pass that wrote it: 1 where it has a ray of its own.
+    pub fn strides(&self) -> &[u8] {
+        &self.shown.strides
     }
 
     /// The job whose news were taken last.
@@ -92,7 +104,7 @@ impl Picture {
                 progress.flaws = flaws;
                 progress.rays_of_pass = passes.first().map_or(0, |pass| rays_of(pass, size));
                 progress.passes = passes;
-                self.coming = Some(Film::new(size));
+                self.coming = Some(Sheet::new(size));
             }
             News::Tile(tile) => {
                 progress.rays_in_pass += tile.pixels.len() as u64;
@@ -118,7 +130,7 @@ impl Picture {
                     self.shown = coming;
                     self.version += 1;
                 }
-                let size = self.shown.size();
+                let size = self.shown.film.size();
                 progress.rays_of_pass = progress
                     .passes
                     .get(progress.done)
@@ -130,8 +142,64 @@ impl Picture {
     }
 }
 
+impl Sheet {
+    fn new(size: [u32; 2]) -> Self {
+        let film = Film::new(size);
+        let strides = vec![1; film.pixels().len()];
+        Self { film, strides }
+    }
+
+    /// Lays a tile on the film and notes its stride for the pixels that it covers.
+    fn merge(&mut self, tile: &Tile) {
+        self.film.merge(tile);
+        let size = self.film.size();
+        let [across, down] = [0, 1].map(|axis| {
+            let end = tile.origin[axis] + tile.size[axis] * tile.stride;
+            tile.origin[axis] as usize..end.min(size[axis]) as usize
+        });
+        let stride = u8::try_from(tile.stride).unwrap_or(u8::MAX);
+        for row in self
+            .strides
+            .chunks_mut(size[0] as usize)
+            .take(down.end)
+            .skip(down.start)
+        {
+            row[across.clone()].fill(stride);
+        }
+    }
+}
+
 fn rays_of(pass: &Pass, size: [u32; 2]) -> u64 {
     size.iter()
         .map(|side| u64::from(side.div_ceil(pass.stride)))
         .product()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::Pixel;
+
+    #[test]
+    fn strides_follow_the_tiles_up_to_the_edge() {
+        let tile = |stride: u32, origin: [u32; 2], size: [u32; 2]| Tile {
+            stride,
+            sample: 0,
+            origin,
+            size,
+            pixels: vec![Pixel::default(); (size[0] * size[1]) as usize],
+            samples: 0,
+        };
+        let mut sheet = Sheet::new([6, 3]);
+        sheet.merge(&tile(4, [0, 0], [2, 1]));
+        assert_eq!(sheet.strides, [4; 18]);
+        sheet.merge(&tile(2, [4, 2], [1, 1]));
+        sheet.merge(&tile(1, [1, 0], [2, 2]));
+        let wanted = [
+            [4, 1, 1, 4, 4, 4], //
+            [4, 1, 1, 4, 4, 4],
+            [4, 4, 4, 4, 2, 2],
+        ];
+        assert_eq!(sheet.strides, wanted.concat());
+    }
 }

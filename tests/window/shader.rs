@@ -105,7 +105,7 @@ fn shown_by_shader(state: &RenderState, film: &Film, view: &BakedView) -> Vec<[u
         view_formats: &[],
     });
     let mut display = Display::new(device, format);
-    display.upload(device, queue, film);
+    display.upload(device, queue, film, &[]);
     display.set_view(queue, view);
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     {

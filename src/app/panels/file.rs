@@ -31,7 +31,7 @@ impl FilePanel {
     ) {
         ui.add(Label::new(RichText::new(document.title()).strong().size(16.0)).truncate());
         ui.add_space(3.0);
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let open = ui.button("Open…").on_hover_text(
                 "Open volume files (Ctrl+O). A density and its temperature can be chosen together. Files can also \
                  be dropped anywhere on the window.",

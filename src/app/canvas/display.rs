@@ -1,94 +1,13 @@
 //! The picture on the screen: the film as a float texture, developed by the graphics card.
 //!
-//! Exposure, adaptation and curve change a uniform and a table of a thousand points, so a view of any size follows
-//! the slider at once and no ray is marched again. The film is uploaded whole, at most once a frame.
+//! Exposure, adaptation, curve, zoom and pan change a uniform and a table of a thousand points, so a view of any size
+//! follows the slider at once and no ray is marched again. The film is uploaded whole, in one write.
 
-use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, wgpu};
-use egui::{Color32, Pos2, Rect, Sense, Ui};
+use eframe::egui_wgpu::wgpu;
 
-use crate::colour::display::{BakedView, TABLE_FIRST_STOP, TABLE_LAST_STOP, TABLE_LEN, View};
-use crate::engine::Picture;
+use super::placement::Mapping;
+use crate::colour::display::{BakedView, TABLE_FIRST_STOP, TABLE_LAST_STOP, TABLE_LEN};
 use crate::render::Film;
-
-/// Longest side of a texture that every graphics card takes.
-const LONGEST_SIDE: u32 = 8192;
-
-/// Shows a picture in the space that is left for it.
-pub(super) struct Canvas {
-    /// `None` where nothing is drawn: a test without a graphics card.
-    state: Option<RenderState>,
-    /// Which film and which view the graphics card has.
-    uploaded: Option<u64>,
-    view: Option<View>,
-}
-
-impl Canvas {
-    /// A canvas that draws with egui's own device.
-    pub(super) fn new(state: Option<RenderState>) -> Self {
-        if let Some(state) = &state {
-            let display = Display::new(&state.device, state.target_format);
-            state.renderer.write().callback_resources.insert(display);
-        }
-        Self {
-            state,
-            uploaded: None,
-            view: None,
-        }
-    }
-
-    /// Draws the picture over all that is left of `ui`, stretched if it is still of an older size. Returns the
-    /// size in pixels that it should have.
-    pub(super) fn show(&mut self, ui: &mut Ui, picture: &Picture, view: &View) -> [u32; 2] {
-        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
-        let (rect, size) = snapped(rect, ui.pixels_per_point());
-        ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
-        let Some(state) = &self.state else {
-            return size;
-        };
-        {
-            let mut renderer = state.renderer.write();
-            if let Some(display) = renderer.callback_resources.get_mut::<Display>() {
-                if self.uploaded != Some(picture.version) {
-                    display.upload(&state.device, &state.queue, picture.film());
-                    self.uploaded = Some(picture.version);
-                }
-                if self.view != Some(*view) {
-                    display.set_view(&state.queue, &BakedView::new(view));
-                    self.view = Some(*view);
-                }
-            }
-        }
-        ui.painter()
-            .add(egui_wgpu::Callback::new_paint_callback(rect, Paint));
-        size
-    }
-}
-
-/// A rectangle moved to whole pixels, and how many they are.
-fn snapped(rect: Rect, pixels_per_point: f32) -> (Rect, [u32; 2]) {
-    let whole = |at: Pos2| [at.x, at.y].map(|v| (v * pixels_per_point).round());
-    let (low, high) = (whole(rect.min), whole(rect.max));
-    let size = [0, 1].map(|axis| ((high[axis] - low[axis]) as u32).clamp(1, LONGEST_SIDE));
-    let point = |at: [f32; 2]| Pos2::new(at[0], at[1]) / pixels_per_point;
-    (Rect::from_min_max(point(low), point(high)), size)
-}
-
-/// Draws the [`Display`] that waits among egui's resources.
-struct Paint;
-
-impl CallbackTrait for Paint {
-    fn paint(
-        &self,
-        _: egui::PaintCallbackInfo,
-        pass: &mut wgpu::RenderPass<'static>,
-        resources: &CallbackResources,
-    ) {
-        if let Some(display) = resources.get::<Display>() {
-            display.paint(pass);
-        }
-    }
-}
 
 /// The display shader with the film and the view it works on.
 pub struct Display {
@@ -102,8 +21,10 @@ pub struct Display {
     staging: Vec<[f32; 4]>,
 }
 
-/// Four numbers for each row of `View` in the shader.
-const UNIFORM_ROWS: usize = 5;
+/// Rows of four numbers in `View` of the shader: what a view fills, then what a mapping fills.
+const VIEW_ROWS: usize = 5;
+const MAPPING_ROWS: usize = 2;
+const ROW_BYTES: usize = 16;
 
 impl Display {
     /// A display that draws to targets of the given format.
@@ -131,7 +52,7 @@ impl Display {
         let pipeline = pipeline(device, &layout, target);
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("view"),
-            size: (UNIFORM_ROWS * 16) as u64,
+            size: ((VIEW_ROWS + MAPPING_ROWS) * ROW_BYTES) as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
@@ -151,8 +72,16 @@ impl Display {
         }
     }
 
-    /// Brings a film to the graphics card in one write. Its sides must be within the device's limit.
-    pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, film: &Film) {
+    /// Brings a film to the graphics card in one write, with the stride of the pass that wrote each pixel (those that
+    /// are missing count as 1): between the rays of a coarse pass the picture is interpolated. The film's sides must be
+    /// within the device's limit.
+    pub fn upload(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        film: &Film,
+        strides: &[u8],
+    ) {
         let size = film.size();
         if [self.film.width(), self.film.height()] != size {
             self.film = float_texture(device, "film", size);
@@ -165,10 +94,12 @@ impl Display {
             );
         }
         self.staging.clear();
-        self.staging.extend(film.pixels().iter().map(|pixel| {
-            let [x, y, z] = pixel.xyz;
-            [x, y, z, pixel.opacity[1]]
-        }));
+        let strides = strides.iter().copied().chain(std::iter::repeat(1));
+        self.staging
+            .extend(film.pixels().iter().zip(strides).map(|(pixel, stride)| {
+                let [x, y, z] = pixel.xyz;
+                [x, y, z, f32::from(stride)]
+            }));
         write(queue, &self.film, &self.staging);
     }
 
@@ -185,14 +116,29 @@ impl Display {
             last,
             f32::from(u8::from(self.target_encodes)),
         ];
-        let rows: [[f32; 4]; UNIFORM_ROWS] = [r, g, b, [lr, lg, lb, view.per_channel], table];
+        let rows: [[f32; 4]; VIEW_ROWS] = [r, g, b, [lr, lg, lb, view.per_channel], table];
         queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&rows));
         let points = view.curve.iter().zip(&view.whiteness);
         let points: Vec<[f32; 4]> = points.map(|(&y, &w)| [y, w, 0.0, 0.0]).collect();
         write(queue, &self.curves, &points);
     }
 
-    /// Draws over the whole viewport of a pass.
+    /// Shows the film where this mapping says from now on.
+    pub fn set_mapping(&mut self, queue: &wgpu::Queue, mapping: &Mapping) {
+        let Mapping {
+            zoom,
+            corner: [left, top],
+            canvas: [width, height],
+        } = *mapping;
+        let place = [1.0 / zoom, -left / zoom, -top / zoom, 0.0].map(|v| v as f32);
+        let canvas = [width as f32, height as f32, 0.0, 0.0];
+        let rows: [[f32; 4]; MAPPING_ROWS] = [place, canvas];
+        let after_view = (VIEW_ROWS * ROW_BYTES) as u64;
+        queue.write_buffer(&self.uniform, after_view, bytemuck::cast_slice(&rows));
+    }
+
+    /// Draws over the whole viewport of a pass, which is the canvas of the mapping. Beside the picture, what was there
+    /// before stays.
     pub fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.group, &[]);

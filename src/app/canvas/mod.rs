@@ -1,0 +1,178 @@
+//! The picture on the screen: what a person sees of the film, and what the pointer and the keys do there.
+//!
+//! Zoom and pan of the picture belong to the canvas and start no render. Moves of the camera are only asked for: the
+//! window writes them into the document.
+
+mod buttons;
+mod display;
+mod moves;
+mod placement;
+
+use std::time::Duration;
+
+use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, wgpu};
+use egui::{Color32, InputState, Pos2, Rect, Role, Sense, Shape, Ui, WidgetInfo};
+
+pub use self::display::Display;
+pub use self::placement::Mapping;
+
+use self::moves::{Moves, Space};
+use self::placement::Sizes;
+use crate::colour::display::{BakedView, View};
+use crate::engine::Picture;
+use crate::scene::Camera;
+
+/// Longest side of a texture that every graphics card takes.
+const LONGEST_SIDE: u32 = 8192;
+
+/// Beside the picture: dark and neutral, and yet not black, so that the picture's edge is seen.
+const BESIDE: Color32 = Color32::from_gray(22);
+
+/// How soon a frame follows while a scroll runs: its end, which ends a step of undo, brings no event.
+const SCROLL_END: Duration = Duration::from_millis(50);
+
+/// Shows a picture in the space that is left for it.
+pub(super) struct Canvas {
+    /// `None` where nothing is drawn: a test without a graphics card.
+    state: Option<RenderState>,
+    /// What the graphics card has: which film, which view, where on the canvas.
+    uploaded: Option<u64>,
+    view: Option<View>,
+    mapping: Option<Mapping>,
+    moves: Moves,
+}
+
+/// What came of a frame of the canvas.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Shown {
+    /// The space in screen pixels: the size of a picture that fits exactly.
+    pub(super) size: [u32; 2],
+    /// The camera after this frame's moves, if it moved.
+    pub(super) camera: Option<Camera>,
+    /// Whether all of the flame shall be framed.
+    pub(super) frame_all: bool,
+    /// Whether a scroll over the picture still runs: its frames belong together.
+    pub(super) scrolling: bool,
+}
+
+impl Canvas {
+    /// A canvas that draws with egui's own device.
+    pub(super) fn new(state: Option<RenderState>) -> Self {
+        if let Some(state) = &state {
+            let display = Display::new(&state.device, state.target_format);
+            state.renderer.write().callback_resources.insert(display);
+        }
+        Self {
+            state,
+            uploaded: None,
+            view: None,
+            mapping: None,
+            moves: Moves::default(),
+        }
+    }
+
+    /// Draws the picture over all that is left of `ui`, and takes what pointer and keys do to it and to the camera that
+    /// the next picture is asked for with.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        picture: &Picture,
+        view: &View,
+        camera: Option<Camera>,
+    ) -> Shown {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Picture"));
+        let (rect, canvas) = snapped(rect, ui.pixels_per_point());
+        // Before there is a picture, the one to come is thought of.
+        let ready = picture.version > 0;
+        let film = if ready { picture.film().size() } else { canvas };
+        let sizes = Sizes { film, canvas };
+        ui.painter().rect_filled(rect, 0.0, BESIDE);
+        // The picture lies below the buttons and yet is where they put it in this frame.
+        let below = ui.painter().add(Shape::Noop);
+        let zoom = self.moves.placement.mapping(sizes).zoom;
+        let pressed = buttons::show(ui, rect, zoom, self.moves.placement.is_fit());
+
+        let space = Space {
+            origin: rect.min,
+            pixels_per_point: ui.pixels_per_point(),
+            sizes,
+        };
+        let mut moved = camera;
+        let frame_all = self.moves.take(&response, space, &pressed, &mut moved);
+        let mapping = self.moves.placement.mapping(sizes);
+        if mapping.zoom != zoom {
+            ui.ctx().request_repaint();
+        }
+        if self.prepare(ready.then_some(picture), view, mapping) {
+            let paint = egui_wgpu::Callback::new_paint_callback(rect, Paint);
+            ui.painter().set(below, paint);
+        }
+
+        let scrolling = response.contains_pointer() && ui.input(InputState::is_scrolling);
+        if scrolling {
+            ui.ctx().request_repaint_after(SCROLL_END);
+        }
+        Shown {
+            size: canvas,
+            camera: moved.filter(|moved| camera != Some(*moved) && moved.view([1, 1]).is_ok()),
+            frame_all,
+            scrolling,
+        }
+    }
+
+    /// Brings to the graphics card what it does not have yet. False if there is nothing to draw, or nothing to draw
+    /// with.
+    fn prepare(&mut self, picture: Option<&Picture>, view: &View, mapping: Mapping) -> bool {
+        let (Some(state), Some(picture)) = (&self.state, picture) else {
+            return false;
+        };
+        let mut renderer = state.renderer.write();
+        let Some(display) = renderer.callback_resources.get_mut::<Display>() else {
+            return false;
+        };
+        if self.uploaded != Some(picture.version) {
+            display.upload(
+                &state.device,
+                &state.queue,
+                picture.film(),
+                picture.strides(),
+            );
+            self.uploaded = Some(picture.version);
+        }
+        if self.view != Some(*view) {
+            display.set_view(&state.queue, &BakedView::new(view));
+            self.view = Some(*view);
+        }
+        if self.mapping != Some(mapping) {
+            display.set_mapping(&state.queue, &mapping);
+            self.mapping = Some(mapping);
+        }
+        true
+    }
+}
+
+/// A rectangle moved to whole pixels, and how many they are.
+fn snapped(rect: Rect, pixels_per_point: f32) -> (Rect, [u32; 2]) {
+    let whole = |at: Pos2| [at.x, at.y].map(|v| (v * pixels_per_point).round());
+    let (low, high) = (whole(rect.min), whole(rect.max));
+    let size = [0, 1].map(|axis| ((high[axis] - low[axis]) as u32).clamp(1, LONGEST_SIDE));
+    let point = |at: [f32; 2]| Pos2::new(at[0], at[1]) / pixels_per_point;
+    (Rect::from_min_max(point(low), point(high)), size)
+}
+
+/// Draws the [`Display`] that waits among egui's resources.
+struct Paint;
+
+impl CallbackTrait for Paint {
+    fn paint(
+        &self,
+        _: egui::PaintCallbackInfo,
+        pass: &mut wgpu::RenderPass<'static>,
+        resources: &CallbackResources,
+    ) {
+        if let Some(display) = resources.get::<Display>() {
+            display.paint(pass);
+        }
+    }
+}
