@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
         let options = Quality::ALL.map(|quality| {
             let (step, wavelengths, rays) = quality.numbers();
             let words = format!(
-                "{} · {step} voxels, {} wavelengths, {rays} {}",
+                "{} · step {step}, {} λ, {rays} {}",
                 capitalised(quality.name()),
                 wavelengths.count(),
                 if rays == 1 { "ray" } else { "rays" },
