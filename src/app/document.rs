@@ -6,6 +6,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::history::History;
 use crate::project::{CameraSettings, Job, Project, ProjectError, VolumeSettings};
 use crate::scene::{Camera, flame};
 use crate::volume::{FieldKind, Recognised, Volume, recognise};
@@ -23,10 +24,7 @@ pub struct Document {
     /// Size of the picture in pixels; `None`: as large as the canvas. Not a part of the scene, so no step of undo.
     pub fixed_size: Option<[u32; 2]>,
     open: Option<Arc<OpenVolume>>,
-    past: Vec<Step>,
-    future: Vec<Step>,
-    /// Whether the newest undo step still grows with the slider that is held.
-    gesture: bool,
+    history: History<Step>,
     /// The last job that could be rendered.
     job: Option<Job>,
     /// What was last asked of the open volume, and for which canvas: the answer stands while this does.
@@ -67,9 +65,7 @@ impl Document {
             project,
             fixed_size: None,
             open: None,
-            past: Vec::new(),
-            future: Vec::new(),
-            gesture: false,
+            history: History::default(),
             job: None,
             asked: None,
             problem: None,
@@ -96,9 +92,7 @@ impl Document {
             self.project.job(&volume)?;
         }
         self.put(volume);
-        self.past.clear();
-        self.future.clear();
-        self.gesture = false;
+        self.history = History::default();
         Ok(())
     }
 
@@ -119,8 +113,7 @@ impl Document {
         let before = self.step();
         self.project = project;
         self.put(volume);
-        self.gesture = false;
-        self.push(before);
+        self.history.push(before, within_bounds(self.open.clone()));
         Ok(())
     }
 
@@ -133,8 +126,7 @@ impl Document {
         let before = self.step();
         self.project.volume.path.clone_from(&volume.sources);
         self.put(volume);
-        self.gesture = false;
-        self.push(before);
+        self.history.push(before, within_bounds(self.open.clone()));
         Ok(())
     }
 
@@ -156,27 +148,6 @@ impl Document {
             project: self.project.clone(),
             open: self.open.clone(),
         }
-    }
-
-    /// Makes `before` what the next undo brings back.
-    fn push(&mut self, before: Step) {
-        self.past.push(before);
-        self.future.clear();
-        let surplus = self.past.len().saturating_sub(MOST_UNDO);
-        self.past.drain(..surplus);
-        // Going back from here, every other volume than the one before it counts.
-        let mut newer = &self.open;
-        let mut volumes = 0;
-        let mut keep = 0;
-        for step in self.past.iter().rev() {
-            volumes += usize::from(!is_same(newer.as_ref(), step.open.as_ref()));
-            if volumes > MOST_UNDO_VOLUMES {
-                break;
-            }
-            newer = &step.open;
-            keep += 1;
-        }
-        self.past.drain(..self.past.len() - keep);
     }
 
     /// Whether one more file may complete the open volume: it came from files and has a single field.
@@ -287,53 +258,56 @@ impl Document {
     /// Makes the changes since `before` one step of undo. While something is `held` (a slider under the pointer)
     /// all its changes are the same step.
     pub fn remember(&mut self, before: Project, held: bool) {
-        if self.project != before {
-            if !self.gesture {
-                let open = self.open.clone();
-                self.push(Step {
-                    project: before,
-                    open,
-                });
-            }
-            self.future.clear();
-            self.gesture = true;
-        }
-        self.gesture &= held;
+        let open = self.open.clone();
+        let before = (self.project != before).then_some(Step {
+            project: before,
+            open,
+        });
+        self.history
+            .follow(before, held, within_bounds(self.open.clone()));
     }
 
     /// Takes the last step back.
     pub fn undo(&mut self) {
-        if let Some(before) = self.past.pop() {
-            let after = self.take(before);
-            self.future.push(after);
+        let now = self.step();
+        if let Some(before) = self.history.undo(now) {
+            self.go_to(before);
         }
     }
 
     /// Takes the last undo back.
     pub fn redo(&mut self) {
-        if let Some(after) = self.future.pop() {
-            let before = self.take(after);
-            self.past.push(before);
+        let now = self.step();
+        if let Some(after) = self.history.redo(now) {
+            self.go_to(after);
         }
     }
 
     /// Whether there is something to take back.
     pub fn can_undo(&self) -> bool {
-        !self.past.is_empty()
+        self.history.can_undo()
     }
 
     /// Whether there is an undo to take back.
     pub fn can_redo(&self) -> bool {
-        !self.future.is_empty()
+        self.history.can_redo()
     }
 
-    /// Goes to a step; gives the one that was left.
-    fn take(&mut self, step: Step) -> Step {
-        let left = self.step();
+    fn go_to(&mut self, step: Step) {
         self.project = step.project;
         self.restore(step.open);
-        self.gesture = false;
-        left
+    }
+}
+
+/// Which steps are kept, asked newest first: so many, with so few volumes beside the open one.
+fn within_bounds(open: Option<Arc<OpenVolume>>) -> impl FnMut(&Step) -> bool + use<> {
+    let mut newer = open;
+    let (mut steps, mut volumes) = (0, 0);
+    move |step| {
+        steps += 1;
+        volumes += usize::from(!is_same(newer.as_ref(), step.open.as_ref()));
+        newer.clone_from(&step.open);
+        steps <= MOST_UNDO && volumes <= MOST_UNDO_VOLUMES
     }
 }
 
@@ -352,26 +326,6 @@ mod tests {
         let before = document.project.clone();
         document.project.soot.radius_nm = radius_nm;
         document.remember(before, held);
-    }
-
-    #[test]
-    fn a_drag_is_one_step_and_a_click_another() {
-        let mut document = Document::new(Project::default());
-        let first = document.project.soot.radius_nm;
-        for radius in [30.0, 31.0, 32.0] {
-            set(&mut document, radius, true);
-        }
-        set(&mut document, 32.0, false);
-        set(&mut document, 60.0, false);
-        document.undo();
-        assert_eq!(document.project.soot.radius_nm, 32.0);
-        document.undo();
-        assert_eq!(document.project.soot.radius_nm, first);
-        document.redo();
-        assert_eq!(document.project.soot.radius_nm, 32.0);
-        set(&mut document, 5.0, false);
-        document.redo();
-        assert_eq!(document.project.soot.radius_nm, 5.0);
     }
 
     #[test]

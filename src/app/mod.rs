@@ -8,6 +8,7 @@ mod canvas;
 mod document;
 mod exporter;
 mod files;
+mod history;
 mod meter;
 mod panels;
 mod recent;
