@@ -82,7 +82,8 @@ pub(super) fn bricks<T: Value>(
         .saturating_add(dense);
     left.check_bytes(path, &what, needed)?;
 
-    let counter = stretch.counter(leaves.len());
+    let rows = tiles.iter().map(|(_, edge, _)| *edge as usize);
+    let counter = stretch.counter(leaves.len() + rows.sum::<usize>());
     let mut bricks: Vec<NewBrick> = leaves
         .into_par_iter()
         .map(|(coordinate, leaf)| {
@@ -98,7 +99,9 @@ pub(super) fn bricks<T: Value>(
         .collect::<Result<_, _>>()?;
     for (origin, edge, value) in tiles {
         for z in 0..edge {
-            stretch.check()?;
+            if !counter.goes_on() {
+                return Err(VolumeError::Cancelled);
+            }
             for y in 0..edge {
                 for x in 0..edge {
                     let coordinate = origin + IVec3::new(x, y, z);

@@ -144,7 +144,9 @@ impl<'a> Stretch<'a> {
     /// # Errors
     /// [`VolumeError::Cancelled`].
     pub(super) fn reach(self, done: u64, all: u64) -> Result<(), VolumeError> {
+        self.check()?;
         self.tell(done, all);
+        // A listener may have had enough.
         self.check()
     }
 
@@ -199,8 +201,7 @@ impl Counter<'_> {
     /// Counts one piece more; false if it shall not be begun.
     pub(super) fn goes_on(&self) -> bool {
         let done = self.done.fetch_add(1, Ordering::Relaxed);
-        self.stretch.tell(done, self.all);
-        !self.stretch.is_cancelled()
+        self.stretch.reach(done, self.all).is_ok()
     }
 }
 

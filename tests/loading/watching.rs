@@ -98,7 +98,7 @@ fn the_share_rises_to_one_on_every_way() {
         assert!(shares.is_sorted(), "{name}: {shares:?}");
         let widest = shares.windows(2).map(|pair| pair[1] - pair[0]);
         let widest = widest.fold(0.0, f32::max);
-        assert!(shares.len() > 8 && widest < 0.45, "{name}: {shares:?}");
+        assert!(shares.len() > 8 && widest < 0.6, "{name}: {shares:?}");
     }
 }
 
