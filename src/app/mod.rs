@@ -305,6 +305,7 @@ impl App {
                     self.meter.measure(self.picture.film());
                     self.edit(|project| project.view.exposure_ev = 0.0);
                 }
+                Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
                 Command::Dismiss => self.notice = None,
                 Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
                 Command::Export(wish) => {

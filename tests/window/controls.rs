@@ -267,3 +267,16 @@ fn a_drag_under_full_load_stays_live_and_ends_at_the_last_job() {
     let still = render_still(&last.scene(None), &last.settings, &Cancel::never(), &|_| {});
     assert!(*harness.state().picture().film() == still.expect("not cancelled").film);
 }
+
+#[test]
+fn the_panel_makes_room_for_the_picture_and_comes_back() {
+    let mut harness = window(Project::default());
+    let narrow = job(&harness).settings.size;
+    harness.key_press(egui::Key::N);
+    harness.run_steps(3);
+    assert!(job(&harness).settings.size[0] > narrow[0]);
+    assert!(harness.query_by_label("Soot radius").is_none());
+    harness.get_by_label("Panel").click();
+    harness.run_steps(3);
+    assert_eq!(job(&harness).settings.size, narrow);
+}

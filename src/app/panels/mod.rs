@@ -47,6 +47,8 @@ pub(super) enum Command {
     Mend(Mend),
     /// Measure exposure and white on the present picture, and expose so.
     AutoExposure,
+    /// Show the controls, or hide them.
+    TogglePanel,
     /// Take the notice away.
     Dismiss,
     /// Show the window that asks for an export.

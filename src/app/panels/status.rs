@@ -36,6 +36,14 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>
                 }
                 let flaws = app.flaws();
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let shown = !app.panels.hidden;
+                    let panel = ui.selectable_label(shown, "Panel");
+                    if panel
+                        .on_hover_text("Show or hide the controls (N).")
+                        .clicked()
+                    {
+                        commands.push(Command::TogglePanel);
+                    }
                     flaw_words(ui, &flaws);
                 });
             });
@@ -90,8 +98,8 @@ fn rendering(ui: &mut Ui, app: &App) {
 
 /// Width of the bar in points.
 const BAR_WIDTH: f32 = 96.0;
-/// Room that is kept for the flaws' words, points.
-const FLAWS_WIDTH: f32 = 120.0;
+/// Room that is kept for the flaws' words and the panel's button, points.
+const FLAWS_WIDTH: f32 = 180.0;
 
 /// What of the picture is assumed, always in sight: the first in words, all of them under the pointer.
 fn flaw_words(ui: &mut Ui, flaws: &[&str]) {
