@@ -18,7 +18,7 @@ use openvdb_rs::metadata::MetaMap;
 use super::build::GridHead;
 use super::file_volume::FileVolume;
 use super::grid::Border;
-use super::openvdb_archive::Archive;
+use super::openvdb_archive::{Archive, cost, is_scalar};
 use super::openvdb_tree;
 use super::watch::Stretch;
 use super::{Format, Limits, Metadata, SkippedGrid, VolumeError};
@@ -66,18 +66,12 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn read(&self) -> Result<FileVolume, VolumeError> {
-        let (whole, grids) = if self.is_stream {
-            (
-                self.stretch.part(0.0, READING),
-                self.stretch.part(READING, 1.0),
-            )
+        let (file, grids) = if self.is_stream {
+            let whole = self.stretch.part(0.0, READING);
+            let file = Archive::open_stream(self.path, self.length, whole);
+            (file, self.stretch.part(READING, 1.0))
         } else {
-            (self.stretch.part(0.0, 0.0), self.stretch)
-        };
-        let file = if self.is_stream {
-            Archive::open_stream(self.path, self.length, whole)
-        } else {
-            Archive::open(self.path, self.head)
+            (Archive::open(self.path, self.head), self.stretch)
         };
         let file = file.map_err(|error| self.vdb_error(&error))?;
         let mut volume = FileVolume::new(self.path, Format::OpenVdb);
@@ -250,19 +244,6 @@ impl Reader<'_> {
             },
             other => self.damaged(&other.to_string()),
         }
-    }
-}
-
-fn is_scalar(value_type: &str) -> bool {
-    matches!(value_type, "float" | "double")
-}
-
-/// What reading a grid costs against the others of its file: its bytes, or 1 for each where the file does not tell.
-fn cost(descriptor: &GridDescriptor) -> u64 {
-    if descriptor.value_type().is_some_and(is_scalar) {
-        descriptor.end_pos.abs_diff(descriptor.grid_pos).max(1)
-    } else {
-        0
     }
 }
 

@@ -106,6 +106,20 @@ impl<'a> Archive<'a> {
     }
 }
 
+/// Whether grids of this type can be fields.
+pub(super) fn is_scalar(value_type: &str) -> bool {
+    matches!(value_type, "float" | "double")
+}
+
+/// What reading a grid costs against the others of its file: its bytes, or 1 for each where the file does not tell.
+pub(super) fn cost(descriptor: &GridDescriptor) -> u64 {
+    if descriptor.value_type().is_some_and(is_scalar) {
+        descriptor.end_pos.abs_diff(descriptor.grid_pos).max(1)
+    } else {
+        0
+    }
+}
+
 fn position(descriptors: &[GridDescriptor], unique_name: &str) -> Result<usize, VdbError> {
     let mut names = descriptors.iter().map(|other| &other.unique_name);
     names

@@ -83,7 +83,7 @@ fn dense(
     let parsing = stretch.part(0.0, PARSING_DENSE);
     let mut values: Vec<f32> = Vec::with_capacity(count as usize);
     while let Some((at, token)) = text.next_token() {
-        if values.len() % VALUES_PER_CHECK == 0 {
+        if values.len().is_multiple_of(VALUES_PER_CHECK) {
             parsing.reach(at as u64, text.bytes.len() as u64)?;
         }
         if values.len() as u64 == count {
@@ -143,7 +143,7 @@ fn sparse(
     let parsing = stretch.part(0.0, PARSING_SPARSE);
     let mut voxels = Vec::with_capacity(count as usize);
     while let Some((at, first)) = text.next_token() {
-        if voxels.len() % VALUES_PER_CHECK == 0 {
+        if voxels.len().is_multiple_of(VALUES_PER_CHECK) {
             parsing.reach(at as u64, text.bytes.len() as u64)?;
         }
         let mut coordinate = [0i32; 3];

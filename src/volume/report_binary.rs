@@ -55,7 +55,7 @@ pub(super) fn read(
         |record: &[u8]| rgb(record).into_iter().fold(f64::NEG_INFINITY, f64::max) as f32;
     let (scanning, listing) = (stretch.part(0.0, SCANNED), stretch.part(SCANNED, LISTED));
     let reach = |stretch: Stretch, index: usize| {
-        if index % RECORDS_PER_CHECK == 0 {
+        if index.is_multiple_of(RECORDS_PER_CHECK) {
             stretch.reach((index * RECORD_BYTES) as u64, records.len() as u64)
         } else {
             Ok(())

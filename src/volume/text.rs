@@ -15,6 +15,9 @@ pub(super) fn voxel_count(dims: IVec3) -> u64 {
         .saturating_mul(dims.z.unsigned_abs().into())
 }
 
+/// Numbers that are counted between two looks at the watch.
+const NUMBERS_PER_LOOK: u64 = 4096;
+
 /// A piece of the file for a message: short, and without control characters.
 pub(super) fn quote(token: &[u8]) -> String {
     let text = String::from_utf8_lossy(&token[..token.len().min(40)]);
@@ -49,10 +52,10 @@ impl<'a> Text<'a> {
 
     /// The numbers that are left.
     pub(super) fn count_tokens(&mut self, stretch: Stretch) -> Result<u64, VolumeError> {
-        let mut count = 0;
+        let mut count = 0u64;
         while self.next_token().is_some() {
             count += 1;
-            if count % 4096 == 0 {
+            if count.is_multiple_of(NUMBERS_PER_LOOK) {
                 stretch.check()?;
             }
         }

@@ -25,12 +25,14 @@ pub struct Watch {
     to: f32,
 }
 
+type Listener = Box<dyn Fn(&Watch) + Send + Sync>;
+
 #[derive(Default)]
 struct Shared {
     /// Bits of the share: for floats that are not negative, the order of the bits is the order of the numbers.
     share: AtomicU32,
     cancelled: AtomicBool,
-    listener: Option<Box<dyn Fn(&Watch) + Send + Sync>>,
+    listener: Option<Listener>,
 }
 
 impl Default for Watch {

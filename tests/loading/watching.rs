@@ -37,10 +37,11 @@ fn sparse() -> Vec<(IVec3, f64)> {
 
 fn sparse_ascii(folder: &Path) -> PathBuf {
     let list = sparse();
-    let mut text = format!("40 40 60 {} 0\n", list.len());
-    for (voxel, value) in list {
-        text += &format!("{} {} {} {value}\n", voxel.x, voxel.y, voxel.z);
-    }
+    let lines: Vec<String> = list
+        .iter()
+        .map(|(voxel, value)| format!("{} {} {} {value}", voxel.x, voxel.y, voxel.z))
+        .collect();
+    let text = format!("40 40 60 {} 0\n{}\n", list.len(), lines.join("\n"));
     write(folder, "sparse.txt", text)
 }
 
