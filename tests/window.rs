@@ -1,5 +1,6 @@
 //! The window, headless and by accessible label. No display is needed; what needs a graphics driver says so.
 
+mod canvas;
 mod controls;
 mod export;
 mod opening;

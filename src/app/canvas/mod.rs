@@ -11,7 +11,7 @@ mod placement;
 use std::time::Duration;
 
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, wgpu};
-use egui::{Color32, InputState, Pos2, Rect, Role, Sense, Shape, Ui, WidgetInfo};
+use egui::{Color32, InputState, Label, Pos2, Rect, Role, Sense, Shape, Ui, WidgetInfo};
 
 pub use self::display::Display;
 pub use self::placement::Mapping;
@@ -24,6 +24,9 @@ use crate::scene::Camera;
 
 /// Longest side of a texture that every graphics card takes.
 const LONGEST_SIDE: u32 = 8192;
+
+/// Between words over the canvas and its edge, points.
+const GAP: f32 = 12.0;
 
 /// Beside the picture: dark and neutral, and yet not black, so that the picture's edge is seen.
 const BESIDE: Color32 = Color32::from_gray(22);
@@ -104,7 +107,14 @@ impl Canvas {
         if mapping.zoom != zoom {
             ui.ctx().request_repaint();
         }
-        if self.prepare(ready.then_some(picture), view, mapping) {
+        let longest = self.longest_side();
+        if film.iter().any(|&side| side > longest) {
+            let words = format!(
+                "The picture is too large to be shown: a side may have {longest} pixels on this graphics card. It \
+                 can still be rendered to a file."
+            );
+            ui.put(rect.shrink(GAP), Label::new(words).wrap());
+        } else if self.prepare(ready.then_some(picture), view, mapping) {
             let paint = egui_wgpu::Callback::new_paint_callback(rect, Paint);
             ui.painter().set(below, paint);
         }
@@ -119,6 +129,13 @@ impl Canvas {
             frame_all,
             scrolling,
         }
+    }
+
+    /// The longest side of a film that the graphics card takes, pixels.
+    fn longest_side(&self) -> u32 {
+        self.state.as_ref().map_or(LONGEST_SIDE, |state| {
+            state.device.limits().max_texture_dimension_2d
+        })
     }
 
     /// Brings to the graphics card what it does not have yet. False if there is nothing to draw, or nothing to draw

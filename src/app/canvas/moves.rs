@@ -98,7 +98,7 @@ impl Moves {
                 }
                 Action::Larger => self.placement = self.placement.stepped(true, about, space.sizes),
                 Action::Smaller => {
-                    self.placement = self.placement.stepped(false, about, space.sizes)
+                    self.placement = self.placement.stepped(false, about, space.sizes);
                 }
                 Action::OneToOne => self.placement = self.placement.one_to_one(about, space.sizes),
                 Action::Fit => self.placement = Placement::FIT,
