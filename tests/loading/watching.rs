@@ -202,3 +202,19 @@ fn voxels_in_any_order_find_their_bricks() {
         }
     }
 }
+
+#[test]
+fn the_last_value_of_a_voxel_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = sparse();
+    let line = |voxel: &IVec3, value: f64| format!("{} {} {} {value}", voxel.x, voxel.y, voxel.z);
+    let wrong = list.iter().map(|(voxel, _)| line(voxel, 9e-6));
+    let right = list.iter().map(|(voxel, value)| line(voxel, *value));
+    let lines: Vec<String> = wrong.chain(right).collect();
+    let text = format!("40 40 60 {} 0\n{}\n", lines.len(), lines.join("\n"));
+    let volume = open_one(&write(folder.path(), "soot.txt", text)).unwrap();
+    let soot = grid(&volume, "soot");
+    for (voxel, value) in list {
+        assert_eq!(soot.value(voxel), value as f32, "{voxel}");
+    }
+}
