@@ -8,6 +8,8 @@
 //! With `SOOTLIGHT_SHARED` on the standard plume and a pool fire as well. Times of a shared machine vary: compare
 //! only what one run printed.
 
+#![allow(clippy::print_stdout, reason = "what a bench is for")]
+
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
