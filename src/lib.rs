@@ -12,7 +12,7 @@
 //!  9 cli          flags → validated command: window | render | info
 //!  8 app          the window (feature `window`)
 //!  7 engine       background rendering for the window: submit(Job), drain() → tiles
-//!    export       PNG, EXR; provenance comes in as text; nothing half-written
+//!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written
 //!  6 project      all that a person can set: the scene file, --set, presets
 //!  5 render       THE CORE: plan, march, film, passes, develop. Headless, no clock, no global state
 //!  4 scene        Flame (volume + fuel + air), Camera, wavelength sets

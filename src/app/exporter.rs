@@ -3,6 +3,8 @@
 //!
 //! An [`Order`] is plain data, taken when Export is pressed: what is edited or opened afterwards does not change it.
 
+mod order;
+
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,53 +15,14 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-use super::Document;
-use crate::export::{ExportError, Format, Still, check_target};
-use crate::project::{CameraSettings, Project, ProjectError, Quality};
-use crate::render::develop::Metering;
+use crate::export::{ExportError, Still, check_target};
+use crate::project::ProjectError;
 use crate::render::{Cancel, Flaws};
-use crate::volume::Volume;
+
+pub(super) use order::{Exactness, Order, Wish};
 
 /// Between two calls that wake the window, milliseconds.
 const WAKE_MS: u64 = 50;
-
-/// How exactly an export is rendered.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Exactness {
-    /// With the numbers of [`Quality::Final`].
-    #[default]
-    Final,
-    /// With the numbers of the window.
-    AsSeen,
-}
-
-/// What a person asked for.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Wish {
-    /// Where to.
-    pub(super) path: PathBuf,
-    /// As what.
-    pub(super) format: Format,
-    /// Width and height in pixels.
-    pub(super) size: [u32; 2],
-    /// How exactly.
-    pub(super) exactness: Exactness,
-}
-
-/// A still to be written.
-#[derive(Clone)]
-pub(super) struct Order {
-    /// What is rendered, at the size of `render.size`.
-    pub(super) project: Project,
-    /// The open volume.
-    pub(super) volume: Arc<Volume>,
-    /// Brightness and white of the window.
-    pub(super) metering: Metering,
-    /// Where to.
-    pub(super) path: PathBuf,
-    /// As what.
-    pub(super) format: Format,
-}
 
 /// What became of an export.
 #[derive(Debug, Clone, PartialEq)]
@@ -129,46 +92,6 @@ enum NotExported {
     NoFile(String),
     #[error("the threads to export with cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-}
-
-impl Exactness {
-    /// The project with the numbers that it is exported with.
-    pub(super) fn of(self, project: &Project) -> Project {
-        let mut project = project.clone();
-        if self == Self::Final {
-            let render = &mut project.render;
-            render.quality = Quality::Final;
-            render.step_voxels = None;
-            render.wavelengths = None;
-            render.samples_per_pixel = None;
-        }
-        project
-    }
-}
-
-impl Wish {
-    /// The order that it stands for: the document's volume and settings, seen from where the window sees them, with
-    /// its brightness. `None` while nothing is shown.
-    pub(super) fn order(self, document: &Document, metering: Metering) -> Option<Order> {
-        let volume = Arc::clone(document.volume()?);
-        // A camera that frames the flame would stand elsewhere in a picture of another shape.
-        let camera = document.last_job()?.camera;
-        let mut project = self.exactness.of(&document.project);
-        project.camera = CameraSettings {
-            eye: Some(camera.eye),
-            target: Some(camera.target),
-            up: Some(camera.up),
-            fov_deg: Some(camera.fov_deg),
-        };
-        project.render.size = self.size;
-        Some(Order {
-            project,
-            volume,
-            metering,
-            path: self.path,
-            format: self.format,
-        })
-    }
 }
 
 impl Exporter {
@@ -351,130 +274,4 @@ fn with_causes(error: &dyn std::error::Error) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use super::*;
-    use crate::volume::procedural;
-
-    fn order(path: PathBuf, side: u32) -> Order {
-        let mut project = Project::default();
-        project.render.size = [side, side];
-        Order {
-            project,
-            volume: Arc::new(procedural::torch()),
-            metering: Metering {
-                exposure: 1.0,
-                white_xyz: [1.0; 3],
-                bright_y: 1.0,
-            },
-            path,
-            format: Format::Exr,
-        }
-    }
-
-    fn outcome(exporter: &mut Exporter) -> Outcome {
-        while exporter.running().is_some() {
-            exporter.poll();
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        exporter.last().unwrap().clone()
-    }
-
-    fn is_empty(folder: &tempfile::TempDir) -> bool {
-        std::fs::read_dir(folder).unwrap().count() == 0
-    }
-
-    #[test]
-    fn one_export_runs_at_a_time_and_ends_with_a_file() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut exporter = Exporter::new(Arc::new(|| {}));
-        exporter.begin(order(folder.path().join("a.exr"), 32));
-        exporter.begin(order(folder.path().join("b.exr"), 32));
-        assert!(matches!(
-            outcome(&mut exporter),
-            Outcome::Done { size: [32, 32], .. }
-        ));
-        assert!(folder.path().join("a.exr").is_file() && !folder.path().join("b.exr").exists());
-    }
-
-    #[test]
-    fn what_is_cancelled_or_dropped_leaves_nothing() {
-        let folder = tempfile::tempdir().unwrap();
-        let endless = || {
-            let mut order = order(folder.path().join("a.exr"), 256);
-            order.project.render.samples_per_pixel = Some(4096);
-            order
-        };
-        let mut exporter = Exporter::new(Arc::new(|| {}));
-        // At once, and in the midst of it.
-        for share in [-1.0, 0.0] {
-            exporter.begin(endless());
-            while exporter.running().unwrap().1.share <= share {
-                std::thread::sleep(Duration::from_millis(1));
-            }
-            exporter.cancel();
-            assert_eq!(outcome(&mut exporter), Outcome::Cancelled);
-        }
-        exporter.begin(endless());
-        drop(exporter);
-        assert!(is_empty(&folder));
-    }
-
-    #[test]
-    fn a_file_of_the_volume_is_never_written_over() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("fire.png");
-        std::fs::write(&path, "a volume").unwrap();
-        let mut own = order(
-            folder
-                .path()
-                .join("../")
-                .join(folder.path())
-                .join("fire.png"),
-            8,
-        );
-        Arc::make_mut(&mut own.volume).sources = vec![path.clone()];
-        let mut exporter = Exporter::new(Arc::new(|| {}));
-        exporter.begin(own);
-        let Outcome::Failed(words) = outcome(&mut exporter) else {
-            unreachable!()
-        };
-        assert!(words.contains("of the volume itself"), "{words}");
-        assert_eq!(std::fs::read(path).unwrap(), b"a volume");
-    }
-
-    #[test]
-    fn the_window_is_woken_now_and_then_and_at_the_end() {
-        let count = Arc::new(AtomicU64::new(0));
-        let wake = Arc::clone(&count);
-        let folder = tempfile::tempdir().unwrap();
-        let begun = Instant::now();
-        let mut exporter = Exporter::new(Arc::new(move || {
-            wake.fetch_add(1, Ordering::SeqCst);
-        }));
-        exporter.begin(order(folder.path().join("a.exr"), 512));
-        outcome(&mut exporter);
-        let most = begun.elapsed().as_millis() as u64 / WAKE_MS + 1;
-        let woken = count.load(Ordering::SeqCst);
-        assert!((1..=most).contains(&woken), "{woken} of at most {most}");
-    }
-
-    #[test]
-    fn final_numbers_take_the_place_of_every_override() {
-        let mut project = Project::default();
-        let overrides = [
-            "render.step_voxels=4",
-            "render.wavelengths=4",
-            "render.samples_per_pixel=2",
-        ];
-        project.set_all(overrides).unwrap();
-        assert_eq!(Exactness::AsSeen.of(&project), project);
-        let settings = Exactness::Final.of(&project).settings([8, 8]).unwrap();
-        let numbers = (
-            settings.step_voxels,
-            settings.wavelengths,
-            settings.samples_per_pixel,
-        );
-        assert_eq!(numbers, Quality::Final.numbers());
-    }
-}
+mod tests;
