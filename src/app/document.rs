@@ -7,7 +7,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::history::History;
+use crate::colour::display::View;
 use crate::project::{CameraSettings, Job, Project, ProjectError, VolumeSettings};
+use crate::render::develop::Metering;
 use crate::scene::{Camera, flame};
 use crate::volume::{FieldKind, Recognised, Volume, recognise};
 
@@ -23,6 +25,9 @@ pub struct Document {
     pub project: Project,
     /// Size of the picture in pixels; `None`: as large as the canvas. Not a part of the scene, so no step of undo.
     pub fixed_size: Option<[u32; 2]>,
+    /// Brightness and white of the open volume, measured once: what the view's exposure counts from. `None` before a
+    /// picture of it could be seen.
+    pub metering: Option<Metering>,
     open: Option<Arc<OpenVolume>>,
     history: History<Step>,
     /// The last job that could be rendered.
@@ -42,6 +47,7 @@ struct OpenVolume {
 #[derive(Debug, Clone)]
 struct Step {
     project: Project,
+    metering: Option<Metering>,
     open: Option<Arc<OpenVolume>>,
 }
 
@@ -64,6 +70,7 @@ impl Document {
         Self {
             project,
             fixed_size: None,
+            metering: None,
             open: None,
             history: History::default(),
             job: None,
@@ -133,6 +140,7 @@ impl Document {
     fn put(&mut self, volume: Arc<Volume>) {
         let recognised = recognise(&volume);
         self.restore(Some(Arc::new(OpenVolume { volume, recognised })));
+        self.metering = None;
     }
 
     fn restore(&mut self, open: Option<Arc<OpenVolume>>) {
@@ -146,6 +154,7 @@ impl Document {
     fn step(&self) -> Step {
         Step {
             project: self.project.clone(),
+            metering: self.metering,
             open: self.open.clone(),
         }
     }
@@ -258,13 +267,31 @@ impl Document {
     /// Makes the changes since `before` one step of undo. While something is `held` (a slider under the pointer)
     /// all its changes are the same step.
     pub fn remember(&mut self, before: Project, held: bool) {
-        let open = self.open.clone();
-        let before = (self.project != before).then_some(Step {
+        let before = (self.project != before).then(|| Step {
             project: before,
-            open,
+            ..self.step()
         });
         self.history
             .follow(before, held, within_bounds(self.open.clone()));
+    }
+
+    /// Makes a change that is one step of undo.
+    pub fn change(&mut self, change: impl FnOnce(&mut Self)) {
+        let before = self.step();
+        change(self);
+        if self.project != before.project || self.metering != before.metering {
+            self.history.push(before, within_bounds(self.open.clone()));
+        }
+    }
+
+    /// How the picture is developed: what a person set, over what was measured.
+    pub fn view(&self) -> View {
+        let nothing = Metering {
+            exposure: 1.0,
+            white_xyz: [0.0; 3],
+            bright_y: 0.0,
+        };
+        self.metering.unwrap_or(nothing).view(&self.project.view())
     }
 
     /// Takes the last step back.
@@ -295,6 +322,7 @@ impl Document {
 
     fn go_to(&mut self, step: Step) {
         self.project = step.project;
+        self.metering = step.metering;
         self.restore(step.open);
     }
 }
@@ -319,75 +347,4 @@ fn is_same(one: Option<&Arc<OpenVolume>>, other: Option<&Arc<OpenVolume>>) -> bo
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn set(document: &mut Document, radius_nm: f64, held: bool) {
-        let before = document.project.clone();
-        document.project.soot.radius_nm = radius_nm;
-        document.remember(before, held);
-    }
-
-    #[test]
-    fn an_opening_can_be_taken_back_but_memory_is_bounded() {
-        let torch = || Arc::new(crate::volume::procedural::torch());
-        let [first, second, third] = [torch(), torch(), torch()];
-        let mut document = Document::new(Project::default());
-        let shown = |document: &Document, volume: &Arc<Volume>| {
-            document
-                .volume()
-                .is_some_and(|open| Arc::ptr_eq(open, volume))
-        };
-        assert!(document.open(Arc::clone(&first)).is_ok() && !document.can_undo());
-        set(&mut document, 30.0, false);
-        assert!(document.replace(Arc::clone(&second)).is_ok());
-        set(&mut document, 50.0, false);
-        document.undo();
-        document.undo();
-        assert!(shown(&document, &first) && document.project.soot.radius_nm == 30.0);
-        document.undo();
-        assert!(!document.can_undo());
-        for _ in 0..3 {
-            document.redo();
-        }
-        assert!(shown(&document, &second) && document.project.soot.radius_nm == 50.0);
-
-        assert!(document.replace(Arc::clone(&third)).is_ok());
-        for _ in 0..9 {
-            document.undo();
-        }
-        assert!(shown(&document, &second), "the first one is let go");
-    }
-
-    #[test]
-    fn a_job_is_made_anew_only_for_another_question() {
-        let mut document = Document::new(Project::default());
-        let torch = || Arc::new(crate::volume::procedural::torch());
-        assert!(document.open(torch()).is_ok());
-        // A job that is made anew has its names at another place: the old one is still alive meanwhile.
-        let mut made = |change: &dyn Fn(&mut Document), canvas| {
-            change(&mut document);
-            let job = document.job(canvas);
-            job.and_then(|job| Some(job.flame.maps.soot.as_ref()?.grid.as_ptr()))
-        };
-        let first = made(&|_| (), [64, 64]);
-        assert!(first.is_some());
-        assert_eq!(made(&|_| (), [64, 64]), first);
-        let wider = made(&|_| (), [65, 64]);
-        assert_ne!(wider, first);
-        let grown = made(&|document| document.project.soot.radius_nm = 31.0, [65, 64]);
-        assert_ne!(grown, wider);
-
-        let another = torch();
-        assert!(document.open(Arc::clone(&another)).is_ok());
-        let job = document.job([65, 64]);
-        assert!(job.is_some_and(|job| Arc::ptr_eq(&job.volume, &another)));
-    }
-
-    #[test]
-    fn a_document_without_a_volume_asks_for_nothing() {
-        let mut document = Document::new(Project::default());
-        assert!(document.job([64, 64]).is_none());
-        assert!(document.problem().is_none());
-    }
-}
+mod tests;

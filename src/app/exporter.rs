@@ -244,7 +244,7 @@ fn export(
         return Err(NotExported::NoFile(order.path.display().to_string()));
     }
     check_target(&order.path, &order.volume.sources)?;
-    let still = Still::new(&order.project, &order.volume, Some(order.metering))?;
+    let still = Still::new(&order.project, &order.volume, order.metering)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads((cores / 2).max(1))

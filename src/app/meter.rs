@@ -1,13 +1,10 @@
 //! Automatic exposure and white: measured when a volume is first seen, then kept, so that a slider that makes the
 //! fire darker makes the picture darker. And what is wrong with a film, in words.
 
-use std::sync::Arc;
-
 use crate::colour::display::View;
 use crate::engine::{Generation, Picture};
-use crate::render::develop::{Metering, ViewParams, flaws_of};
+use crate::render::develop::{Metering, flaws_of};
 use crate::render::{Film, Flaws};
-use crate::volume::Volume;
 
 /// A picture whose brightest pixel is darker than this share of display white shows nothing.
 const INVISIBLE: f64 = 1.0 / 512.0;
@@ -15,14 +12,9 @@ const INVISIBLE: f64 = 1.0 / 512.0;
 /// Pictures with a shorter side, as while a window is being resized or unfolded, show too little to be judged.
 const LEAST_SIDE: u32 = 32;
 
-/// Holds what was measured.
+/// Looks at pictures. What it measures is the document's to keep.
 #[derive(Default)]
 pub(super) struct Meter {
-    metering: Option<Metering>,
-    /// The volume that it was measured on.
-    volume: Option<Arc<Volume>>,
-    /// The job whose first whole pass was judged last.
-    judged: Option<Generation>,
     /// The job that was measured before it had its full resolution.
     coarse: Option<Generation>,
     /// The film that was looked through last: its job, and how many passes were whole.
@@ -35,49 +27,51 @@ pub(super) struct Meter {
 }
 
 impl Meter {
-    /// Looks at a picture of `volume` of which at least one pass is whole: measures it if it is the first one, or
-    /// if nothing could be seen otherwise. A coarse picture that was measured is measured again when it has become
-    /// a full one, because a still is.
-    pub(super) fn follow(&mut self, volume: &Arc<Volume>, picture: &Picture) {
-        let Some(generation) = picture.generation() else {
-            return;
-        };
+    /// Looks at a picture of which at least one pass is whole, beside what is `known` of its volume. Gives what was
+    /// measured, if nothing was known, or if a coarse picture that was measured has become a full one: a still is
+    /// measured so.
+    pub(super) fn follow(
+        &mut self,
+        picture: &Picture,
+        known: Option<Metering>,
+    ) -> Option<Metering> {
+        let generation = picture.generation()?;
         if picture.film().size().iter().any(|&side| side < LEAST_SIDE) {
-            return;
+            return None;
         }
         let done = picture.progress.done;
-        if self.seen != Some((generation, done)) {
-            self.seen = Some((generation, done));
-            self.flaws = flaws_of(picture.film());
-            self.black = Metering::of(picture.film()).is_black();
-            self.peak_y = peak_y(picture.film());
+        if self.seen == Some((generation, done)) {
+            return None;
         }
+        self.seen = Some((generation, done));
+        let metering = Metering::of(picture.film());
+        self.flaws = flaws_of(picture.film());
+        self.black = metering.is_black();
+        self.peak_y = peak_y(picture.film());
+
         let mut whole = picture.progress.passes.iter().take(done);
         let full = whole.any(|pass| pass.stride == 1);
-        if self.judged == Some(generation) {
-            if full && self.coarse == Some(generation) {
-                self.measure(picture.film());
-            }
-            return;
+        let again = full && self.coarse == Some(generation);
+        if self.coarse != Some(generation) || full {
+            self.coarse = None;
         }
-        self.judged = Some(generation);
-        if !self
-            .volume
-            .as_ref()
-            .is_some_and(|known| Arc::ptr_eq(known, volume))
-        {
-            self.volume = Some(Arc::clone(volume));
-            self.metering = None;
+        // A black picture tells nothing of the fire to come.
+        if self.black || !(known.is_none() || again) {
+            return None;
         }
-        let visible = self
-            .metering
-            .is_some_and(|metering| self.peak_y * metering.exposure > INVISIBLE);
-        // What was measured on an older job stays: it is what the sliders' effect is judged by.
+        self.coarse = (!full).then_some(generation);
+        Some(metering)
+    }
+
+    /// Whether what was measured last was measured on a coarse picture.
+    pub(super) fn is_coarse(&self) -> bool {
+        self.coarse.is_some()
+    }
+
+    /// What a film is measured to be, if it is not black; it stands whatever becomes of the film.
+    pub(super) fn measured(&mut self, film: &Film) -> Option<Metering> {
         self.coarse = None;
-        if !visible {
-            self.measure(picture.film());
-            self.coarse = (!full).then_some(generation);
-        }
+        Some(Metering::of(film)).filter(|metering| !metering.is_black())
     }
 
     /// What is wrong with the picture that was followed last.
@@ -93,29 +87,6 @@ impl Meter {
     /// Whether the film that was followed last could be seen, but not with this view.
     pub(super) fn is_underexposed(&self, view: &View) -> bool {
         self.seen.is_some() && !self.black && self.peak_y * view.exposure < INVISIBLE
-    }
-
-    /// Measures a film. A black one tells nothing: what was measured before stays.
-    pub(super) fn measure(&mut self, film: &Film) {
-        self.coarse = None;
-        let metering = Metering::of(film);
-        if metering.bright_y > 0.0 {
-            self.metering = Some(metering);
-        }
-    }
-
-    /// What was measured; of a picture that was black so far, that it is.
-    pub(super) fn metering(&self) -> Metering {
-        self.metering.unwrap_or(Metering {
-            exposure: 1.0,
-            white_xyz: [0.0; 3],
-            bright_y: 0.0,
-        })
-    }
-
-    /// The view that a person set, over what was measured.
-    pub(super) fn view(&self, params: &ViewParams) -> View {
-        self.metering().view(params)
     }
 }
 

@@ -8,6 +8,7 @@ mod canvas;
 mod document;
 mod exporter;
 mod files;
+mod hands;
 mod history;
 mod meter;
 mod panels;
@@ -19,8 +20,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use egui::{Key, KeyboardShortcut, Modifiers};
-
 pub use canvas::{Display, Mapping};
 pub use document::{Document, FieldRow};
 pub use start::{AppError, run};
@@ -29,7 +28,7 @@ use self::canvas::Canvas;
 use self::exporter::Exporter;
 use self::files::{Loader, Outcome, Request};
 use self::meter::Meter;
-use self::panels::{Command, Panels};
+use self::panels::Panels;
 use self::recent::Recent;
 use crate::colour::display::View;
 use crate::engine::{Engine, Generation, Picture};
@@ -130,7 +129,7 @@ impl App {
 
     /// How the picture is developed.
     pub fn view(&self) -> View {
-        self.meter.view(&self.document.project.view())
+        self.document.view()
     }
 
     /// The picture on show.
@@ -198,9 +197,14 @@ impl App {
         let Some(submitted) = &self.submitted else {
             return;
         };
-        if self.picture.generation() == Some(submitted.generation) && self.picture.progress.done > 0
-        {
-            self.meter.follow(&submitted.job.volume, &self.picture);
+        let of_the_open_volume = self
+            .document
+            .volume()
+            .is_some_and(|open| Arc::ptr_eq(open, &submitted.job.volume));
+        let newest = self.picture.generation() == Some(submitted.generation);
+        if of_the_open_volume && newest && self.picture.progress.done > 0 {
+            let measured = self.meter.follow(&self.picture, self.document.metering);
+            self.document.metering = measured.or(self.document.metering);
         }
     }
 
@@ -279,95 +283,6 @@ impl App {
         }
     }
 
-    /// A change of its own: one step of undo.
-    fn edit(&mut self, change: impl FnOnce(&mut Project)) {
-        let before = self.document.project.clone();
-        change(&mut self.document.project);
-        self.document.remember(before, false);
-    }
-
-    fn obey(&mut self, commands: Vec<Command>) {
-        for command in commands {
-            match command {
-                Command::Ask => self.loader.ask(),
-                Command::Open(paths) => self.open(paths),
-                Command::BuiltIn => self.loader.begin(Request::Files(Vec::new())),
-                Command::CancelLoading => self.cancel_loading(),
-                Command::Undo => self.document.undo(),
-                Command::Redo => self.document.redo(),
-                Command::FrameAll => {
-                    let before = self.document.project.clone();
-                    self.frame_all();
-                    self.document.remember(before, false);
-                }
-                Command::Mend(mend) => self.edit(|project| mend.apply(project)),
-                Command::AutoExposure => {
-                    self.meter.measure(self.picture.film());
-                    self.edit(|project| project.view.exposure_ev = 0.0);
-                }
-                Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
-                Command::Dismiss => self.notice = None,
-                Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
-                Command::Export(wish) => {
-                    if let Some(order) = wish.order(&self.document, self.meter.metering()) {
-                        self.exporter.begin(order);
-                    }
-                }
-                Command::CancelExport => self.exporter.cancel(),
-            }
-        }
-    }
-
-    /// Files let go over the window, and a path pasted where nothing else takes it.
-    fn take_drops(&mut self, ctx: &egui::Context) {
-        let mut paths: Vec<PathBuf> = ctx.input(|input| {
-            input
-                .raw
-                .dropped_files
-                .iter()
-                .map(|file| file.path().to_owned())
-                .collect()
-        });
-        if paths.is_empty() && !ctx.egui_wants_keyboard_input() {
-            paths = ctx.input(|input| {
-                let pasted = input.events.iter().filter_map(|event| match event {
-                    egui::Event::Paste(text) => Some(files::paths_of(text)),
-                    _ => None,
-                });
-                pasted.flatten().collect()
-            });
-        }
-        self.open(paths);
-    }
-
-    fn take_keys(&mut self, ctx: &egui::Context) {
-        if ctx.egui_wants_keyboard_input() {
-            return;
-        }
-        let with = |modifiers, key| KeyboardShortcut::new(modifiers, key);
-        let redo = with(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-        // The longer shortcut first: the shorter one would also match it.
-        if ctx.input_mut(|input| input.consume_shortcut(&redo)) {
-            self.document.redo();
-        } else if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::Z))) {
-            self.document.undo();
-        }
-        if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::O))) {
-            self.loader.ask();
-        }
-        if self.loader.loading().is_some()
-            && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
-        {
-            self.cancel_loading();
-        }
-        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::N)) {
-            self.panels.hidden = !self.panels.hidden;
-        }
-        if ctx.input_mut(|input| input.consume_shortcut(&with(Modifiers::COMMAND, Key::E))) {
-            self.panels.export.open(&self.document, &mut self.exporter);
-        }
-    }
-
     fn retitle(&mut self, ctx: &egui::Context) {
         let title = format!("Sootlight — {}", self.document.title());
         if title != self.title {
@@ -375,16 +290,6 @@ impl App {
             self.title = title;
         }
     }
-}
-
-/// Whether what changes belongs to the same step of undo: something is held, or was clicked so shortly before that a
-/// second click makes it a double one.
-fn is_held(ctx: &egui::Context) -> bool {
-    let double_click_s = ctx.options(|options| options.input_options.max_double_click_delay);
-    ctx.input(|input| {
-        input.pointer.any_down()
-            || f64::from(input.pointer.time_since_last_click()) < double_click_s
-    })
 }
 
 impl eframe::App for App {
@@ -411,11 +316,10 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
         self.take_drops(&ctx);
-        self.take_keys(&ctx);
+        let mut commands = self.take_keys(&ctx);
 
         // Panels change the document, and ask for what they cannot do themselves.
         let before = self.document.project.clone();
-        let mut commands = Vec::new();
         panels::status(ui, self, &mut commands);
         let flaws: Vec<String> = self.flaws().into_iter().map(String::from).collect();
         self.panels
@@ -440,7 +344,7 @@ impl eframe::App for App {
             self.frame_all();
         }
         self.document
-            .remember(before, is_held(&ctx) || shown.scrolling);
+            .remember(before, hands::is_held(&ctx) || shown.scrolling);
         self.obey(commands);
         self.follow();
     }

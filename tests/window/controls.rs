@@ -280,3 +280,63 @@ fn the_panel_makes_room_for_the_picture_and_comes_back() {
     harness.run_steps(3);
     assert_eq!(job(&harness).settings.size, narrow);
 }
+
+#[test]
+fn an_automatic_exposure_can_be_taken_back() {
+    let mut harness = tall_window(Project::default());
+    harness.state_mut().document_mut().project.soot.amount = 8.0;
+    set_slider(&mut harness, "Exposure", 3.0);
+    settle(&mut harness);
+    let before = harness.state().view();
+    harness.get_by_label("Auto exposure").click();
+    harness.run_steps(2);
+    let auto = harness.state().view();
+    assert_ne!(auto, before);
+    harness.get_by_label("Undo").click();
+    harness.run_steps(2);
+    assert_eq!(harness.state().view(), before);
+    harness.get_by_label("Redo").click();
+    harness.run_steps(2);
+    assert_eq!(harness.state().view(), auto);
+}
+
+#[test]
+fn a_shortcut_works_while_a_slider_has_the_focus() {
+    let mut harness = tall_window(Project::default());
+    let before = job(&harness).flame.soot_radius_nm;
+    let slider = harness.get_by_role_and_label(Role::Slider, "Soot radius");
+    slider.click();
+    harness.run_steps(2);
+    harness
+        .get_by_role_and_label(Role::Slider, "Soot radius")
+        .focus();
+    harness.run_steps(2);
+    assert_ne!(job(&harness).flame.soot_radius_nm, before);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert_eq!(job(&harness).flame.soot_radius_nm, before);
+}
+
+#[test]
+fn a_change_long_after_another_is_a_step_of_its_own() {
+    let mut harness = tall_window(Project::default());
+    let radius = |harness: &Harness<'_, App>| job(harness).flame.soot_radius_nm;
+    harness
+        .get_by_role_and_label(Role::Slider, "Soot radius")
+        .click();
+    harness.run_steps(2);
+    let clicked = radius(&harness);
+    // Frames are drawn only as long as somebody asks for the next one.
+    settle(&mut harness);
+    for _ in 0..100 {
+        let asked = &harness.output().viewport_output[&egui::ViewportId::ROOT];
+        if asked.repaint_delay > Duration::from_secs(1) {
+            break;
+        }
+        harness.run_steps(1);
+    }
+    set_slider(&mut harness, "Soot radius", 70.0);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert_eq!(radius(&harness), clicked);
+}

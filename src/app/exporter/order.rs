@@ -39,8 +39,8 @@ pub(in crate::app) struct Order {
     pub(in crate::app) project: Project,
     /// The open volume.
     pub(in crate::app) volume: Arc<Volume>,
-    /// Brightness and white of the window.
-    pub(in crate::app) metering: Metering,
+    /// Brightness and white of the window; measured on the still itself if the window has none yet.
+    pub(in crate::app) metering: Option<Metering>,
     /// Where to.
     pub(in crate::app) path: PathBuf,
     /// As what.
@@ -65,7 +65,11 @@ impl Exactness {
 impl Wish {
     /// The order that it stands for: the document's volume and settings, seen from where the window sees them, with
     /// its brightness. `None` while nothing is shown.
-    pub(in crate::app) fn order(self, document: &Document, metering: Metering) -> Option<Order> {
+    pub(in crate::app) fn order(
+        self,
+        document: &Document,
+        metering: Option<Metering>,
+    ) -> Option<Order> {
         let volume = Arc::clone(document.volume()?);
         // A camera that frames the flame would stand elsewhere in a picture of another shape.
         let camera = document.last_job()?.camera;

@@ -11,11 +11,11 @@ fn order(path: PathBuf, side: u32) -> Order {
     Order {
         project,
         volume: Arc::new(procedural::torch()),
-        metering: Metering {
+        metering: Some(Metering {
             exposure: 1.0,
             white_xyz: [1.0; 3],
             bright_y: 1.0,
-        },
+        }),
         path,
         format: Format::Exr,
     }

@@ -1,0 +1,119 @@
+//! What hands do to the whole window: keys, files let go over it, and the commands of panels.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
+
+use super::files::{Request, paths_of};
+use super::panels::Command;
+use super::{App, Document};
+
+/// Shortcuts, longer ones first: a shorter one would also match them.
+const SHORTCUTS: [(Modifiers, Key, Command); 6] = [
+    (
+        Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        Key::Z,
+        Command::Redo,
+    ),
+    (Modifiers::COMMAND, Key::Z, Command::Undo),
+    (Modifiers::COMMAND, Key::Y, Command::Redo),
+    (Modifiers::COMMAND, Key::O, Command::Ask),
+    (Modifiers::COMMAND, Key::E, Command::OpenExport),
+    (Modifiers::NONE, Key::N, Command::TogglePanel),
+];
+
+impl App {
+    /// Does what panels and keys asked for.
+    pub(super) fn obey(&mut self, commands: Vec<Command>) {
+        for command in commands {
+            match command {
+                Command::Ask => self.loader.ask(),
+                Command::Open(paths) => self.open(paths),
+                Command::BuiltIn => self.loader.begin(Request::Files(Vec::new())),
+                Command::CancelLoading => self.cancel_loading(),
+                Command::Undo => self.document.undo(),
+                Command::Redo => self.document.redo(),
+                Command::FrameAll => self.document.change(Document::frame_all),
+                Command::Mend(mend) => self
+                    .document
+                    .change(|document| mend.apply(&mut document.project)),
+                Command::AutoExposure => {
+                    let measured = self.meter.measured(self.picture.film());
+                    self.document.change(|document| {
+                        document.metering = measured.or(document.metering);
+                        document.project.view.exposure_ev = 0.0;
+                    });
+                }
+                Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
+                Command::Dismiss => self.notice = None,
+                Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
+                Command::Export(wish) => {
+                    // What was measured on a coarse picture is about to be measured again.
+                    let metering = self.document.metering;
+                    let metering = metering.filter(|_| !self.meter.is_coarse());
+                    if let Some(order) = wish.order(&self.document, metering) {
+                        self.exporter.begin(order);
+                    }
+                }
+                Command::CancelExport => self.exporter.cancel(),
+            }
+        }
+    }
+
+    /// Files let go over the window, and a path pasted where nothing else takes it.
+    pub(super) fn take_drops(&mut self, ctx: &Context) {
+        let mut paths: Vec<PathBuf> = ctx.input(|input| {
+            let dropped = input.raw.dropped_files.iter();
+            dropped.map(|file| file.path().to_owned()).collect()
+        });
+        if paths.is_empty() && !ctx.text_edit_focused() {
+            paths = ctx.input(|input| {
+                let pasted = input.events.iter().filter_map(|event| match event {
+                    Event::Paste(text) => Some(paths_of(text)),
+                    _ => None,
+                });
+                pasted.flatten().collect()
+            });
+        }
+        self.open(paths);
+    }
+
+    /// What the keys ask for, unless they are being typed into a field.
+    pub(super) fn take_keys(&mut self, ctx: &Context) -> Vec<Command> {
+        if ctx.text_edit_focused() {
+            return Vec::new();
+        }
+        let pressed = |modifiers, key| {
+            let shortcut = KeyboardShortcut::new(modifiers, key);
+            ctx.input_mut(|input| input.consume_shortcut(&shortcut))
+        };
+        let mut commands: Vec<Command> = SHORTCUTS
+            .into_iter()
+            .filter_map(|(modifiers, key, command)| pressed(modifiers, key).then_some(command))
+            .collect();
+        if self.loader.loading().is_some() && pressed(Modifiers::NONE, Key::Escape) {
+            commands.push(Command::CancelLoading);
+        }
+        commands
+    }
+}
+
+/// Whether what changes belongs to the same step of undo: something is held, or was clicked so shortly before that a
+/// second click makes it a double one.
+pub(super) fn is_held(ctx: &Context) -> bool {
+    let double_click_s = ctx.options(|options| options.input_options.max_double_click_delay);
+    let (down, since_s) = ctx.input(|input| {
+        let pointer = &input.pointer;
+        (
+            pointer.any_down(),
+            f64::from(pointer.time_since_last_click()),
+        )
+    });
+    let clicked = since_s < double_click_s;
+    if clicked {
+        // The step ends in a frame of its own: nothing else may come before the next change.
+        ctx.request_repaint_after(Duration::from_secs_f64(double_click_s));
+    }
+    down || clicked
+}
