@@ -47,8 +47,11 @@ fn window(folder: &Path, name: &str, files: &[&str]) {
     let script = r#""$0" "${@:2}" & program=$!; sleep 6; import -window root "$1"; taken=$?
         kill $program || exit 1; wait; exit $taken"#;
     let output = cleared(name);
+    let memory = tempfile::tempdir().expect("a temporary folder");
     let status = Command::new("xvfb-run")
         .current_dir(folder)
+        // What a person's own windows remember is left alone.
+        .env("XDG_DATA_HOME", memory.path())
         .args([
             "-a",
             "-s",
@@ -96,4 +99,9 @@ fn of_the_shared_volumes() {
         still(&data, name, &[file, "--size", size]);
     }
     window(&data, "window_pool.png", &["pool/pool_0022_zip_half.vdb"]);
+    window(
+        &data,
+        "window_embergen.png",
+        &["embergen_cc0/embergen_fire_a_60.vdb"],
+    );
 }

@@ -57,6 +57,7 @@ impl App {
                     }
                 }
                 Command::CancelExport => self.exporter.cancel(),
+                Command::ForgetExport => self.exporter.dismiss(),
             }
         }
     }

@@ -238,14 +238,21 @@ impl ExportPanel {
 }
 
 /// One short line on the export that runs or has ended, while its window is closed.
-pub(in crate::app) fn line(ui: &mut Ui, app: &App) {
+pub(in crate::app) fn line(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     if app.panels.export.is_open {
         return;
     }
     if let Some((path, progress)) = app.exporter.running() {
         let words = format!("{} {}", target::name_of(path), words_of(progress));
+        if ui.small_button("Cancel export").clicked() {
+            commands.push(Command::CancelExport);
+        }
         ui.add(Label::new(words).truncate());
     } else if let Some(outcome) = app.exporter.last() {
+        let tip = "Takes these words away.";
+        if ui.small_button("OK").on_hover_text(tip).clicked() {
+            commands.push(Command::ForgetExport);
+        }
         tell(ui, |text| Label::new(text).truncate(), outcome);
     }
 }

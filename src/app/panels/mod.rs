@@ -57,6 +57,8 @@ pub(super) enum Command {
     Export(Wish),
     /// Stop exporting.
     CancelExport,
+    /// Take away what is said of the last export.
+    ForgetExport,
 }
 
 /// Width of the panel in points, scroll bar included.

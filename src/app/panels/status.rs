@@ -28,7 +28,7 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>
             // The line is as high whatever it says: the picture above must keep its size.
             ui.set_min_height(HEIGHT - 2.0 * f32::from(MARGIN));
             ui.horizontal_centered(|ui| {
-                super::export::line(ui, app);
+                super::export::line(ui, app, commands);
                 if let Some(load) = app.loader.loading() {
                     loading(ui, &load, commands);
                 } else {
