@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::history::History;
 use crate::colour::display::View;
-use crate::project::{CameraSettings, Job, Project, ProjectError, VolumeSettings};
+use crate::project::{CameraSettings, Job, Project, ProjectError, ViewSettings, VolumeSettings};
 use crate::render::develop::Metering;
 use crate::scene::{Camera, flame};
 use crate::volume::{FieldKind, Recognised, Volume, recognise};
@@ -32,8 +32,8 @@ pub struct Document {
     history: History<Step>,
     /// The last job that could be rendered.
     job: Option<Job>,
-    /// What was last asked of the open volume, and for which canvas: the answer stands while this does.
-    asked: Option<(Project, [u32; 2])>,
+    /// What was last asked of the open volume: the answer stands while this does.
+    asked: Option<Project>,
     problem: Option<String>,
 }
 
@@ -119,8 +119,7 @@ impl Document {
         project.job(&volume)?;
         let before = self.step();
         self.project = project;
-        self.put(volume);
-        self.history.push(before, within_bounds(self.open.clone()));
+        self.put_after(before, volume);
         Ok(())
     }
 
@@ -132,9 +131,18 @@ impl Document {
         self.project.job(&volume)?;
         let before = self.step();
         self.project.volume.path.clone_from(&volume.sources);
-        self.put(volume);
-        self.history.push(before, within_bounds(self.open.clone()));
+        self.put_after(before, volume);
         Ok(())
+    }
+
+    /// Shows a volume as a step of undo. There is none back to a window that shows nothing.
+    fn put_after(&mut self, before: Step, volume: Arc<Volume>) {
+        self.put(volume);
+        if before.open.is_some() {
+            self.history.push(before, within_bounds(self.open.clone()));
+        } else {
+            self.history = History::default();
+        }
     }
 
     fn put(&mut self, volume: Arc<Volume>) {
@@ -186,11 +194,13 @@ impl Document {
         let canvas = self.fixed_size.unwrap_or(canvas);
         let volume = &self.open.as_ref()?.volume;
         let asked = self.asked.as_ref();
-        if asked.is_some_and(|(project, size)| *project == self.project && *size == canvas) {
-            return self.job.as_ref();
-        }
+        // A job has no view: exposure and adaptation ask for none.
         let mut sized = self.project.clone();
         sized.render.size = canvas;
+        sized.view = ViewSettings::default();
+        if asked == Some(&sized) {
+            return self.job.as_ref();
+        }
         match sized.job(volume) {
             Ok(job) => {
                 self.job = Some(job);
@@ -198,7 +208,7 @@ impl Document {
             }
             Err(error) => self.problem = Some(error.to_string()),
         }
-        self.asked = Some((self.project.clone(), canvas));
+        self.asked = Some(sized);
         self.job.as_ref()
     }
 
@@ -214,12 +224,7 @@ impl Document {
 
     /// Looks from here on with this camera, whatever the flame's size.
     pub fn move_camera(&mut self, camera: &Camera) {
-        self.project.camera = CameraSettings {
-            eye: Some(camera.eye),
-            target: Some(camera.target),
-            up: Some(camera.up),
-            fov_deg: Some(camera.fov_deg),
-        };
+        self.project.camera = CameraSettings::from(camera);
     }
 
     /// Moves the camera so that all of the flame is seen, from the side that it is seen from now. From the front that
@@ -282,6 +287,18 @@ impl Document {
         if self.project != before.project || self.metering != before.metering {
             self.history.push(before, within_bounds(self.open.clone()));
         }
+    }
+
+    /// Takes in what was measured of the open volume by itself. What earlier steps were measured with is replaced, too:
+    /// nobody has chosen it.
+    pub fn measured(&mut self, metering: Metering) {
+        let old = self.metering.replace(metering);
+        let open = self.open.clone();
+        self.history.for_each(|step| {
+            if is_same(step.open.as_ref(), open.as_ref()) && step.metering == old {
+                step.metering = Some(metering);
+            }
+        });
     }
 
     /// How the picture is developed: what a person set, over what was measured.

@@ -37,7 +37,12 @@ pub(super) enum Outcome {
     /// A volume that takes the place of the open one.
     Replaced(Arc<Volume>),
     /// The open volume with a field that it lacked.
-    Completed(Arc<Volume>),
+    Completed {
+        /// What was open when this was asked for.
+        open: Arc<Volume>,
+        /// Both together.
+        both: Arc<Volume>,
+    },
     /// Nothing was opened, and why.
     Failed {
         /// What was asked for.
@@ -49,6 +54,17 @@ pub(super) enum Outcome {
     Chosen(Vec<PathBuf>),
     /// The dialog never appeared.
     NoDialog,
+}
+
+impl Outcome {
+    /// The volume that it brought.
+    fn volume(&self) -> Option<&Arc<Volume>> {
+        match self {
+            Self::Shown(volume) | Self::Replaced(volume) => Some(volume),
+            Self::Completed { both, .. } => Some(both),
+            Self::Failed { .. } | Self::Chosen(_) | Self::NoDialog => None,
+        }
+    }
 }
 
 /// A load that has not failed and was not overtaken by one that succeeded.
@@ -247,21 +263,29 @@ fn load(request: Request, watch: &Watch) -> Outcome {
         Request::Files(paths) => open(paths).map(|v| Outcome::Replaced(v.into())),
         Request::Partner(open, path) => open_partner(open, path, &limits, watch),
     };
-    outcome.unwrap_or_else(|error| Outcome::Failed {
+    let outcome = outcome.unwrap_or_else(|error| Outcome::Failed {
         request,
         words: error.to_string(),
-    })
+    });
+    // What a camera frames takes a walk over all voxels: here, not where the window waits for it.
+    for grid in outcome.volume().iter().flat_map(|volume| &volume.grids) {
+        grid.bulk();
+    }
+    outcome
 }
 
 /// The open volume with the file's field; or the file alone, where it has the same field.
 fn open_partner(
-    open: &Volume,
+    open: &Arc<Volume>,
     path: &Path,
     limits: &Limits,
     watch: &Watch,
 ) -> Result<Outcome, VolumeError> {
     match open.with_file_watched(path, limits, &watch.part(0.0, TOGETHER)) {
-        Ok(both) => Ok(Outcome::Completed(both.into())),
+        Ok(both) => Ok(Outcome::Completed {
+            open: Arc::clone(open),
+            both: both.into(),
+        }),
         Err(VolumeError::Cancelled) => Err(VolumeError::Cancelled),
         Err(together) => {
             let watch = watch.part(TOGETHER, 1.0);

@@ -39,7 +39,9 @@ impl App {
                     .document
                     .change(|document| mend.apply(&mut document.project)),
                 Command::AutoExposure => {
-                    let measured = self.meter.measured(self.picture.film());
+                    // A picture of another volume says nothing of this one, which is measured when it is seen.
+                    let film = self.shows_newest().then(|| self.picture.film());
+                    let measured = film.and_then(|film| self.meter.measured(film));
                     self.document.change(|document| {
                         document.metering = measured.or(document.metering);
                         document.project.view.exposure_ev = 0.0;

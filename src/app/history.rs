@@ -60,6 +60,11 @@ impl<T> History<T> {
         Some(after)
     }
 
+    /// Visits every step, to be changed.
+    pub(super) fn for_each(&mut self, visit: impl FnMut(&mut T)) {
+        self.past.iter_mut().chain(&mut self.future).for_each(visit);
+    }
+
     /// Whether there is something to take back.
     pub(super) fn can_undo(&self) -> bool {
         !self.past.is_empty()

@@ -3,11 +3,9 @@
 
 use crate::colour::display::View;
 use crate::engine::{Generation, Picture};
-use crate::render::develop::{Metering, flaws_of};
+use crate::render::develop::{Metering, can_be_seen, flaws_of, is_too_dark};
 use crate::render::{Film, Flaws};
-
-/// A picture whose brightest pixel is darker than this share of display white shows nothing.
-const INVISIBLE: f64 = 1.0 / 512.0;
+use crate::scene::FlameParams;
 
 /// Pictures with a shorter side, as while a window is being resized or unfolded, show too little to be judged.
 const LEAST_SIDE: u32 = 32;
@@ -15,10 +13,12 @@ const LEAST_SIDE: u32 = 32;
 /// Looks at pictures. What it measures is the document's to keep.
 #[derive(Default)]
 pub(super) struct Meter {
-    /// The job that was measured before it had its full resolution.
-    coarse: Option<Generation>,
+    /// What was measured before it had its full resolution.
+    coarse: Option<FlameParams>,
     /// The film that was looked through last: its job, and how many passes were whole.
     seen: Option<(Generation, usize)>,
+    /// Whether it had its full resolution.
+    full: bool,
     flaws: Flaws,
     /// Whether nothing on that film could be seen at any exposure.
     black: bool,
@@ -27,12 +27,13 @@ pub(super) struct Meter {
 }
 
 impl Meter {
-    /// Looks at a picture of which at least one pass is whole, beside what is `known` of its volume. Gives what was
-    /// measured, if nothing was known, or if a coarse picture that was measured has become a full one: a still is
-    /// measured so.
+    /// Looks at a picture of a flame, of which at least one pass is whole, beside what is `known` of its volume. Gives
+    /// what was measured, if nothing was known, or if what was known came from a coarse picture of the same flame and
+    /// this is a full one: a still is measured so.
     pub(super) fn follow(
         &mut self,
         picture: &Picture,
+        flame: &FlameParams,
         known: Option<Metering>,
     ) -> Option<Metering> {
         let generation = picture.generation()?;
@@ -44,23 +45,20 @@ impl Meter {
             return None;
         }
         self.seen = Some((generation, done));
-        let metering = Metering::of(picture.film());
-        self.flaws = flaws_of(picture.film());
-        self.black = metering.is_black();
-        self.peak_y = peak_y(picture.film());
-
         let mut whole = picture.progress.passes.iter().take(done);
-        let full = whole.any(|pass| pass.stride == 1);
-        let again = full && self.coarse == Some(generation);
-        if self.coarse != Some(generation) || full {
-            self.coarse = None;
-        }
+        self.full = whole.any(|pass| pass.stride == 1);
+        self.flaws = flaws_of(picture.film());
+        self.peak_y = peak_y(picture.film());
+        self.black = !can_be_seen(self.peak_y);
+
+        let coarse = self.coarse.as_ref();
+        let again = self.full && coarse.is_some_and(|known| known.gives_same_light_as(flame));
         // A black picture tells nothing of the fire to come.
         if self.black || !(known.is_none() || again) {
             return None;
         }
-        self.coarse = (!full).then_some(generation);
-        Some(metering)
+        self.coarse = (!self.full).then(|| flame.clone());
+        Some(Metering::of(picture.film()))
     }
 
     /// Whether what was measured last was measured on a coarse picture.
@@ -79,14 +77,14 @@ impl Meter {
         &self.flaws
     }
 
-    /// Whether the film that was followed last is black at any exposure.
-    pub(super) fn is_black(&self) -> bool {
-        self.black
+    /// Whether the picture of this job has its full resolution and is black at any exposure.
+    pub(super) fn is_black(&self, job: Generation) -> bool {
+        self.black && self.full && self.seen.is_some_and(|(seen, _)| seen == job)
     }
 
     /// Whether the film that was followed last could be seen, but not with this view.
     pub(super) fn is_underexposed(&self, view: &View) -> bool {
-        self.seen.is_some() && !self.black && self.peak_y * view.exposure < INVISIBLE
+        self.full && !self.black && is_too_dark(self.peak_y * view.exposure)
     }
 }
 

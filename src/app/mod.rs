@@ -41,6 +41,9 @@ const FRAME: Duration = Duration::from_millis(30);
 /// While a file is read, how far it is is drawn this often.
 const LOADING_FRAME: Duration = Duration::from_millis(100);
 
+/// So long a changed job waits for the first picture of the one before it.
+const LONGEST_WAIT: Duration = Duration::from_millis(250);
+
 /// The window.
 pub struct App {
     document: Document,
@@ -65,6 +68,22 @@ struct Submitted {
     job: Job,
     generation: Generation,
     at: Instant,
+    /// When its first news came: the medium is packed then.
+    begun: Option<Instant>,
+}
+
+impl Submitted {
+    /// Whether the first picture of this job is about to come, so that another of the same volume waits for it. While
+    /// the medium is packed nothing could begin anyway; after that the wait is bounded.
+    fn is_worth_waiting_for(&self, next: &Job, picture: &Picture) -> bool {
+        let progress = &picture.progress;
+        let is_newest = picture.generation() == Some(self.generation);
+        let came = is_newest && (progress.done > 0 || progress.failure.is_some());
+        let long = self
+            .begun
+            .is_some_and(|begun| begun.elapsed() > LONGEST_WAIT);
+        Arc::ptr_eq(&self.job.volume, &next.volume) && !came && !long
+    }
 }
 
 impl App {
@@ -115,9 +134,9 @@ impl App {
         &mut self.document
     }
 
-    /// The job that was submitted last.
+    /// The job that the document stands for: submitted, or about to be.
     pub fn job(&self) -> Option<&Job> {
-        self.submitted.as_ref().map(|submitted| &submitted.job)
+        self.document.last_job()
     }
 
     /// Which submit that was.
@@ -137,9 +156,13 @@ impl App {
         &self.picture
     }
 
-    /// Whether every pass of the job submitted last is on the picture, and nothing is being loaded.
+    /// Whether every pass of the document's job is on the picture, and nothing is being loaded.
     pub fn is_settled(&self) -> bool {
-        self.loader.loading().is_none() && self.renders_newest() && self.picture.progress.finished
+        let submitted = self.submitted.as_ref().map(|submitted| &submitted.job);
+        self.loader.loading().is_none()
+            && submitted == self.document.last_job()
+            && self.renders_newest()
+            && self.picture.progress.finished
     }
 
     /// What went wrong last, in words, unless it was dismissed.
@@ -179,6 +202,15 @@ impl App {
         self.generation().is_some() && self.picture.generation() == self.generation()
     }
 
+    /// Whether the picture is of the open volume and of the job submitted last, however coarse.
+    fn shows_newest(&self) -> bool {
+        let of_the_open_volume = match (self.document.volume(), &self.submitted) {
+            (Some(open), Some(submitted)) => Arc::ptr_eq(open, &submitted.job.volume),
+            _ => false,
+        };
+        of_the_open_volume && self.renders_newest() && self.picture.progress.done > 0
+    }
+
     /// What was assumed of the file or cannot be faithful in the picture on show, in words.
     fn flaws(&self) -> Vec<&str> {
         let assumed = self
@@ -194,17 +226,19 @@ impl App {
         for update in self.engine.drain() {
             self.picture.take(update);
         }
+        if self.renders_newest()
+            && let Some(submitted) = &mut self.submitted
+        {
+            submitted.begun.get_or_insert_with(Instant::now);
+        }
         let Some(submitted) = &self.submitted else {
             return;
         };
-        let of_the_open_volume = self
-            .document
-            .volume()
-            .is_some_and(|open| Arc::ptr_eq(open, &submitted.job.volume));
-        let newest = self.picture.generation() == Some(submitted.generation);
-        if of_the_open_volume && newest && self.picture.progress.done > 0 {
-            let measured = self.meter.follow(&self.picture, self.document.metering);
-            self.document.metering = measured.or(self.document.metering);
+        if self.shows_newest() {
+            let (flame, known) = (&submitted.job.flame, self.document.metering);
+            if let Some(metering) = self.meter.follow(&self.picture, flame, known) {
+                self.document.measured(metering);
+            }
         }
     }
 
@@ -214,7 +248,17 @@ impl App {
             match outcome {
                 Outcome::Shown(volume) => self.show(volume, Document::open),
                 Outcome::Replaced(volume) => self.show(volume, Document::replace),
-                Outcome::Completed(volume) => self.show(volume, Document::complete),
+                Outcome::Completed { open, both } => {
+                    let now = self.document.volume();
+                    let same = now.is_some_and(|now| Arc::ptr_eq(now, &open));
+                    // Settings made for another volume do not suit these files.
+                    let way = if same {
+                        Document::complete
+                    } else {
+                        Document::replace
+                    };
+                    self.show(both, way);
+                }
                 Outcome::Failed { request, words } => {
                     self.refuse(&words, !matches!(request, Request::BuiltIn));
                 }
@@ -272,12 +316,15 @@ impl App {
         match &mut self.submitted {
             // The same picture may be meant by other numbers, such as a humidity that nothing shows.
             Some(submitted) if submitted.job == *job => submitted.job = job.clone(),
+            // A slider that moves faster than pictures come would starve them all.
+            Some(submitted) if submitted.is_worth_waiting_for(job, &self.picture) => {}
             _ => {
                 let generation = self.engine.submit(job.clone());
                 self.submitted = Some(Submitted {
                     job: job.clone(),
                     generation,
                     at: Instant::now(),
+                    begun: None,
                 });
             }
         }

@@ -20,7 +20,10 @@ impl Recent {
 
     /// Stores it for the next window.
     pub(super) fn save(&self, storage: &mut dyn eframe::Storage) {
-        eframe::set_value(storage, KEY, &self.0);
+        // The storage holds text: a path that is none cannot be remembered.
+        let text = |files: &&Vec<PathBuf>| files.iter().all(|path| path.to_str().is_some());
+        let kept: Vec<_> = self.0.iter().filter(text).collect();
+        eframe::set_value(storage, KEY, &kept);
     }
 
     /// Puts files first. They are remembered by their whole paths: the next window may start elsewhere.

@@ -91,7 +91,6 @@ impl Picture {
         if self.generation != Some(update.generation) {
             self.generation = Some(update.generation);
             self.progress = Progress::default();
-            self.coming = None;
         }
         let progress = &mut self.progress;
         match update.news {
@@ -104,7 +103,10 @@ impl Picture {
                 progress.flaws = flaws;
                 progress.rays_of_pass = passes.first().map_or(0, |pass| rays_of(pass, size));
                 progress.passes = passes;
-                self.coming = Some(Sheet::new(size));
+                // The first pass writes every pixel, so a sheet that was not finished serves again.
+                let again = self.coming.take();
+                let again = again.filter(|sheet| sheet.film.size() == size);
+                self.coming = Some(again.unwrap_or_else(|| Sheet::new(size)));
             }
             News::Tile(tile) => {
                 progress.rays_in_pass += tile.pixels.len() as u64;

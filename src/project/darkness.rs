@@ -24,6 +24,8 @@ pub struct Darkness {
 pub enum Mend {
     /// Take the soot as the file has it.
     SootAmount,
+    /// Take the smoke as the file has it.
+    SmokeAmount,
     /// Take the field as the producer's preset does.
     Field(FieldKind),
     /// Heat: these factors from the file's numbers to kelvin.
@@ -63,18 +65,30 @@ fn no_soot(job: &Job) -> Option<Darkness> {
     if (0..2).any(|i| amounts[i] * densest(kinds[i]) > 0.0) {
         return None;
     }
-    let switched_off = kinds.iter().any(|&kind| densest(kind) > 0.0);
-    Some(if switched_off {
+    Some(if densest(FieldKind::Soot) > 0.0 {
         Darkness {
             words: "the picture is black: the amount of soot is 0".to_owned(),
             mend: Some(Mend::SootAmount),
         }
+    } else if densest(FieldKind::Smoke) > 0.0 {
+        Darkness {
+            words: "the picture is black: the amount of smoke is 0, and there is no soot"
+                .to_owned(),
+            mend: Some(Mend::SmokeAmount),
+        }
     } else {
         Darkness {
             words: "the picture is black: no voxel holds soot. Is its scale right?".to_owned(),
-            mend: Some(Mend::Field(FieldKind::Soot)),
+            mend: as_proposed(job, FieldKind::Soot),
         }
     })
+}
+
+/// Back to the preset's mapping of a field, if it is another one.
+fn as_proposed(job: &Job, kind: FieldKind) -> Option<Mend> {
+    let changed = job.flame.maps.get(kind) != job.proposed.get(kind);
+    let off = job.flame.maps.get(kind).is_none();
+    (changed || off).then_some(Mend::Field(kind))
 }
 
 fn too_cold(job: &Job) -> Option<Darkness> {
@@ -145,9 +159,10 @@ impl Mend {
     pub fn label(&self) -> String {
         match self {
             Self::SootAmount => "Set the soot amount to 1".to_owned(),
+            Self::SmokeAmount => "Set the smoke amount to 1".to_owned(),
             Self::Field(kind) => format!("Read the {} as the preset does", kind.name()),
             Self::Heat { .. } => format!("Make the hottest voxel {PEAK_K} K"),
-            Self::Camera => "Frame all".to_owned(),
+            Self::Camera => "Look at the fire".to_owned(),
         }
     }
 
@@ -155,6 +170,7 @@ impl Mend {
     pub fn apply(&self, project: &mut Project) {
         match *self {
             Self::SootAmount => project.soot.amount = 1.0,
+            Self::SmokeAmount => project.smoke.amount = 1.0,
             Self::Field(kind) => *project.volume.field_mut(kind) = FieldSettings::default(),
             Self::Heat { scale, offset } => {
                 let grid = project.volume.temperature.grid.take();
@@ -166,7 +182,12 @@ impl Mend {
                     max: Some(PEAK_K),
                 };
             }
-            Self::Camera => project.camera = CameraSettings::default(),
+            Self::Camera => {
+                project.camera = CameraSettings {
+                    fov_deg: project.camera.fov_deg,
+                    ..CameraSettings::default()
+                };
+            }
         }
     }
 }
@@ -203,6 +224,14 @@ mod tests {
                 "looks elsewhere",
             ),
             (&["soot.amount=1e-30"], "too little soot"),
+            (
+                &[
+                    "volume.soot.grid=",
+                    "volume.smoke.grid=soot",
+                    "smoke.amount=0",
+                ],
+                "amount of smoke is 0",
+            ),
         ] {
             let mut project = Project::default();
             project.render.size = [32, 48];

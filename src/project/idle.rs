@@ -4,7 +4,7 @@
 //! compared with the job itself.
 
 use super::job::Job;
-use crate::physics::soot::SootModel;
+use crate::physics::soot::{Hold, SootModel};
 use crate::scene::{FlameParams, Fuel};
 
 /// A control whose effect depends on the scene.
@@ -12,6 +12,14 @@ use crate::scene::{FlameParams, Fuel};
 pub enum Control {
     /// `fuel.name`
     Fuel,
+    /// `soot.model`
+    SootModel,
+    /// `soot.hold`
+    Hold,
+    /// `volume.temperature.scale` and `volume.temperature.offset`
+    Heat,
+    /// `volume.flame.grid`
+    FlameField,
     /// `soot.radius_nm`
     SootRadius,
     /// `soot.amount`
@@ -32,7 +40,21 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
             "Chang and Charalampopoulos measured one soot for all fuels: choose another soot model to tell them apart"
         }
-        Control::Fuel | Control::SootRadius if no_soot => "there is no soot",
+        Control::Fuel
+        | Control::SootModel
+        | Control::Hold
+        | Control::Heat
+        | Control::SootRadius
+            if no_soot =>
+        {
+            "there is no soot"
+        }
+        Control::SootModel => "the soot models agree here",
+        Control::Hold => "at 21.25 nm, where the file's soot holds, both are the same",
+        Control::Heat => "the temperature does not matter here",
+        Control::FlameField => {
+            "no effect that is computed reads it: what glows is said by “Soot from”"
+        }
         Control::Fuel => "the soot of these fuels absorbs alike under this soot model",
         Control::SootRadius => {
             "with its volume kept, soot of any radius absorbs and glows alike; scattering, which would tell, is not \
@@ -49,7 +71,19 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         flame.gives_same_light_as(&other)
     };
     let idle = match control {
-        Control::Fuel => Fuel::ALL.into_iter().all(|fuel| same(&|f| f.fuel = fuel)),
+        Control::SootModel => {
+            no_soot
+                || SootModel::ALL
+                    .into_iter()
+                    .all(|m| same(&|f| f.soot_model = m))
+        }
+        Control::Hold => {
+            let both = [Hold::Number, Hold::Volume];
+            no_soot || both.into_iter().all(|hold| same(&|f| f.soot_hold = hold))
+        }
+        Control::Heat => no_soot,
+        Control::FlameField => same(&|f| f.maps.flame = None),
+        Control::Fuel => no_soot || Fuel::ALL.into_iter().all(|fuel| same(&|f| f.fuel = fuel)),
         Control::SootRadius => no_soot || same(&|f| f.soot_radius_nm *= 1.5),
         Control::SootAmount => same(&|f| f.soot_amount += 1.0),
         Control::SmokeAmount => same(&|f| f.smoke_amount += 1.0),
@@ -92,6 +126,26 @@ mod tests {
             idle(&["soot.amount=0", "smoke.amount=0"], Control::SootRadius).as_deref(),
             Some("there is no soot")
         );
+    }
+
+    #[test]
+    fn nothing_about_soot_acts_where_there_is_none() {
+        let none = ["soot.amount=0", "smoke.amount=0"];
+        for control in [
+            Control::Fuel,
+            Control::SootModel,
+            Control::SootRadius,
+            Control::Hold,
+            Control::Heat,
+        ] {
+            let words = idle(&none, control);
+            assert!(words.is_some(), "{control:?}");
+        }
+        assert_eq!(idle(&[], Control::SootModel), None);
+        assert_eq!(idle(&[], Control::Heat), None);
+        assert!(idle(&[], Control::Hold).is_some());
+        assert_eq!(idle(&["soot.radius_nm=30"], Control::Hold), None);
+        assert!(idle(&["volume.flame.grid=soot"], Control::FlameField).is_some());
     }
 
     #[test]

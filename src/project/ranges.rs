@@ -1,6 +1,7 @@
 //! What every number may be, in one place: the scene file, the command line and the window's controls read it.
 
 pub use crate::render::STEP_RANGE as STEP_VOXELS;
+pub use crate::scene::camera::FOV_RANGE_DEG as FOV_DEG;
 
 /// `soot.radius_nm`: from single spheres of the smallest flames to aggregates thought of as spheres.
 pub const SOOT_RADIUS_NM: [f64; 2] = [1.0, 100.0];
@@ -12,8 +13,6 @@ pub const AIR_TEMPERATURE_K: [f64; 2] = [200.0, 400.0];
 pub const HUMIDITY: [f64; 2] = [0.0, 1.0];
 /// `air.co2_ppm`: what Ciddor's equation (1996) was made for.
 pub const CO2_PPM: [f64; 2] = [0.0, 2000.0];
-/// `camera.fov_deg`, vertical.
-pub const FOV_DEG: [f64; 2] = [0.01, 179.0];
 /// `view.exposure_ev`.
 pub const EXPOSURE_EV: [f64; 2] = [-20.0, 20.0];
 /// `view.adaptation`.

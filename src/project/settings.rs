@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
-use crate::scene::{Air, Fuel, WavelengthSet};
+use crate::scene::{Air, Camera, Fuel, WavelengthSet};
 use crate::volume::Producer;
 
 /// A whole scene file.
@@ -195,6 +195,18 @@ pub struct CameraSettings {
     /// Vertical field of view, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fov_deg: Option<f64>,
+}
+
+impl From<&Camera> for CameraSettings {
+    /// This very camera, whatever the flame's size.
+    fn from(camera: &Camera) -> Self {
+        Self {
+            eye: Some(camera.eye),
+            target: Some(camera.target),
+            up: Some(camera.up),
+            fov_deg: Some(camera.fov_deg),
+        }
+    }
 }
 
 /// `[render]`

@@ -44,13 +44,28 @@ const BRIGHT_LEVEL: f64 = 4.0;
 /// no longer seen (CIE 191:2010). Soot at room temperature stays dark.
 const DARKEST_WHITE_CD_M2: f64 = 0.005;
 
+/// Whether light of this Y, W m⁻² sr⁻¹, can be seen at any exposure that is chosen automatically.
+pub fn can_be_seen(y: f64) -> bool {
+    !is_too_dark(y * brightest_exposure())
+}
+
+/// The highest automatic exposure.
+fn brightest_exposure() -> f64 {
+    cie::MAX_LUMINOUS_EFFICACY / DARKEST_WHITE_CD_M2
+}
+
+/// Whether a share of display white is seen by no one.
+pub fn is_too_dark(share: f64) -> bool {
+    share < BLACK
+}
+
 /// Share of display white below which a picture counts as black: half a step of 8 bits is seen by no one.
 const BLACK: f64 = 1.0 / 512.0;
 
 impl Metering {
     /// Whether the brightest parts stay below what a display shows at this exposure.
     pub fn is_black(&self) -> bool {
-        self.bright_y * self.exposure < BLACK
+        is_too_dark(self.bright_y * self.exposure)
     }
 
     /// Meters a film. Non-finite pixels are left out.
@@ -86,9 +101,8 @@ impl Metering {
                 .sum::<f64>()
                 / brightest.len() as f64
         };
-        let brightest_exposure = cie::MAX_LUMINOUS_EFFICACY / DARKEST_WHITE_CD_M2;
         Self {
-            exposure: (BRIGHT_LEVEL / bright_y).min(brightest_exposure),
+            exposure: (BRIGHT_LEVEL / bright_y).min(brightest_exposure()),
             white_xyz: [mean(0), mean(1), mean(2)],
             bright_y,
         }

@@ -46,6 +46,9 @@ pub const FRAMING_FOV_DEG: f64 = 32.0;
 /// How much wider than the box a framing is, so that the flame does not touch the picture's edge.
 pub(super) const FRAMING_MARGIN: f64 = 1.12;
 
+/// Least and greatest vertical field of view, degrees.
+pub const FOV_RANGE_DEG: [f64; 2] = [0.01, 179.0];
+
 /// Half the height of the frame that focal lengths are given for, mm: still film of 36 × 24 mm.
 const HALF_FRAME_MM: f64 = 12.0;
 
@@ -124,7 +127,7 @@ impl Camera {
         if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
             return Err(CameraError::NotFinite);
         }
-        if !(0.01..=179.0).contains(&self.fov_deg) {
+        if !(FOV_RANGE_DEG[0]..=FOV_RANGE_DEG[1]).contains(&self.fov_deg) {
             return Err(CameraError::FieldOfView(self.fov_deg));
         }
         let forward = (self.target - self.eye)

@@ -68,7 +68,11 @@ impl FlameParams {
         let (amounts, common) = self.packed_amounts();
         Effect {
             key: PackingKey {
-                maps: self.maps.clone(),
+                // No law reads the reaction's progress.
+                maps: FieldMaps {
+                    flame: None,
+                    ..self.maps.clone()
+                },
                 placement: self.placement,
                 amounts,
                 ambient_k: self.air.temperature_k,

@@ -80,11 +80,13 @@ impl Reader<'_> {
 
         let mut left = self.limits;
         let mut taken = HashSet::new();
-        let all = file.descriptors().iter().map(cost).sum::<u64>().max(1) as f32;
-        let mut after_it = 0;
+        // In a file without offsets nothing has checked what they seem to say.
+        let costs = file.descriptors().iter().map(cost);
+        let all = costs.fold(0, u64::saturating_add).max(1) as f32;
+        let mut after_it: u64 = 0;
         for descriptor in file.descriptors() {
             let before_it = after_it;
-            after_it += cost(descriptor);
+            after_it = after_it.saturating_add(cost(descriptor));
             let stretch = grids.part(before_it as f32 / all, after_it as f32 / all);
             stretch.check()?;
             let name = printable(&descriptor.grid_name);

@@ -247,14 +247,13 @@ fn a_drag_under_full_load_stays_live_and_ends_at_the_last_job() {
     settle(&mut harness);
     let mut seen = std::collections::BTreeSet::new();
     for i in 0..120 {
-        harness.state_mut().document_mut().project.soot.amount = 0.5 + 0.02 * f64::from(i);
+        // One that only changes laws, and one for which the medium is packed anew.
+        let project = &mut harness.state_mut().document_mut().project;
+        project.soot.amount = 0.5 + 0.02 * f64::from(i);
+        project.volume.temperature.scale = Some(1.0 - 0.001 * f64::from(i));
         harness.run_steps(1);
         std::thread::sleep(Duration::from_millis(8));
         let app = harness.state();
-        assert_eq!(
-            app.job().expect("a job").flame.soot_amount,
-            0.5 + 0.02 * f64::from(i)
-        );
         seen.insert(app.picture().version);
     }
     assert!(
@@ -338,4 +337,25 @@ fn a_change_long_after_another_is_a_step_of_its_own() {
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     harness.run_steps(2);
     assert_eq!(radius(&harness), clicked);
+}
+
+#[test]
+fn a_field_that_is_only_looked_into_keeps_its_value() {
+    let mut project = Project::default();
+    // More digits than the fields show.
+    project.soot.amount = 0.123_456;
+    project.soot.radius_nm = 21.256_789;
+    project.camera.fov_deg = Some(31.234_567);
+    let mut harness = tall_window(project);
+    let before = harness.state().document().project.clone();
+    for label in ["Soot amount", "Soot radius", "Focal length", "Voxel size"] {
+        harness
+            .get_by_role_and_label(Role::SpinButton, label)
+            .click();
+        harness.run_steps(2);
+        harness.key_press(egui::Key::Enter);
+        harness.run_steps(2);
+        assert_eq!(harness.state().document().project, before, "{label}");
+    }
+    assert!(!harness.state().document().can_undo());
 }

@@ -1,6 +1,8 @@
 //! What pointer and keys do over the picture: move the camera as in Blender, and zoom and pan the picture itself.
 
-use egui::{CursorIcon, Event, InputState, Key, Modifiers, PointerButton, Pos2, Response, Vec2};
+use egui::{
+    CursorIcon, Event, InputState, Key, Modifiers, PointerButton, Popup, Pos2, Response, Vec2,
+};
 
 use super::placement::{Placement, Sizes};
 use crate::scene::Camera;
@@ -193,7 +195,7 @@ impl Drag {
 
 /// What the keys ask for, unless they are being typed into a field.
 fn keys(ctx: &egui::Context) -> Vec<Action> {
-    if ctx.text_edit_focused() {
+    if ctx.text_edit_focused() || Popup::is_any_open(ctx) {
         return Vec::new();
     }
     let pressed = |input: &InputState| {

@@ -68,3 +68,57 @@ fn a_document_without_a_volume_asks_for_nothing() {
     assert!(document.job([64, 64]).is_none());
     assert!(document.problem().is_none());
 }
+
+#[test]
+fn nothing_is_undone_into_a_window_that_shows_nothing() {
+    let torch = || Arc::new(crate::volume::procedural::torch());
+    let mut document = Document::new(Project::default());
+    set(&mut document, 30.0, false);
+    assert!(document.replace(torch()).is_ok());
+    assert!(!document.can_undo());
+}
+
+#[test]
+fn what_is_measured_by_itself_is_no_step_and_reaches_back() {
+    let metering = |exposure: f64| Metering {
+        exposure,
+        white_xyz: [1.0; 3],
+        bright_y: 1.0,
+    };
+    let mut document = Document::new(Project::default());
+    assert!(
+        document
+            .open(Arc::new(crate::volume::procedural::torch()))
+            .is_ok()
+    );
+    // A slider moves before the first picture is seen, and again before it is a full one.
+    set(&mut document, 30.0, false);
+    document.measured(metering(2.0));
+    set(&mut document, 40.0, false);
+    document.measured(metering(3.0));
+    document.undo();
+    assert_eq!(document.metering, Some(metering(3.0)));
+    document.undo();
+    assert_eq!(document.metering, Some(metering(3.0)));
+    assert!(!document.can_undo());
+    // What a person asks for is a step.
+    document.change(|document| document.metering = Some(metering(5.0)));
+    document.undo();
+    assert_eq!(document.metering, Some(metering(3.0)));
+}
+
+#[test]
+fn a_view_asks_for_no_job() {
+    let mut document = Document::new(Project::default());
+    assert!(
+        document
+            .open(Arc::new(crate::volume::procedural::torch()))
+            .is_ok()
+    );
+    let mut made = |exposure_ev: f64| {
+        document.project.view.exposure_ev = exposure_ev;
+        let job = document.job([64, 64]);
+        job.and_then(|job| Some(job.flame.maps.soot.as_ref()?.grid.as_ptr()))
+    };
+    assert_eq!(made(0.0), made(1.0));
+}

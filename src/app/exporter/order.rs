@@ -74,12 +74,7 @@ impl Wish {
         // A camera that frames the flame would stand elsewhere in a picture of another shape.
         let camera = document.last_job()?.camera;
         let mut project = self.exactness.of(&document.project);
-        project.camera = CameraSettings {
-            eye: Some(camera.eye),
-            target: Some(camera.target),
-            up: Some(camera.up),
-            fov_deg: Some(camera.fov_deg),
-        };
+        project.camera = CameraSettings::from(&camera);
         project.render.size = self.size;
         Some(Order {
             project,

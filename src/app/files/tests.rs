@@ -115,7 +115,7 @@ fn a_partner_that_must_be_read_alone_goes_on_where_the_pair_ended() {
     let shares = Arc::new(std::sync::Mutex::new(Vec::new()));
     let heard = Arc::clone(&shares);
     let watch = Watch::with_listener(move |watch| heard.lock().unwrap().push(watch.share()));
-    let outcome = open_partner(&open, &second, &Limits::default(), &watch).unwrap();
+    let outcome = open_partner(&Arc::new(open), &second, &Limits::default(), &watch).unwrap();
     assert!(matches!(outcome, Outcome::Replaced(_)));
     let shares = shares.lock().unwrap();
     assert!(

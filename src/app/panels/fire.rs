@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::knob::{Choice, Knob, name};
+use super::knob::{Choice, Knob, name, note};
 use super::{section, unit};
 use crate::physics::soot::{
     Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM, SootModel,
@@ -19,8 +19,8 @@ const SCALES_K: [f64; 2] = [-1e9, 1e9];
 pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
     section(ui, "Fire", true, |ui| {
         let idle = |control| job.and_then(|job| why_idle(job, control));
-        fuel(ui, project, idle(Control::Fuel));
-        radius(ui, project, idle(Control::SootRadius));
+        fuel(ui, project, [Control::Fuel, Control::SootModel].map(idle));
+        radius(ui, project, [Control::SootRadius, Control::Hold].map(idle));
         let default = SootSettings::default();
         Knob {
             label: "Soot amount",
@@ -56,7 +56,7 @@ pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, job: Option<&Jo
     });
 }
 
-fn fuel(ui: &mut Ui, project: &mut Project, idle: Option<String>) {
+fn fuel(ui: &mut Ui, project: &mut Project, [idle, idle_model]: [Option<String>; 2]) {
     let words = |fuel: Fuel| match fuel {
         Fuel::Propane => "Propane, C₃H₈",
         Fuel::Acetylene => "Acetylene, C₂H₂",
@@ -87,12 +87,12 @@ fn fuel(ui: &mut Ui, project: &mut Project, idle: Option<String>) {
         options: &options,
         tip: "Whose measurement says how soot's absorption depends on wavelength.",
         default: SootModel::default(),
-        idle: None,
+        idle: idle_model,
     }
     .show(ui, &mut project.soot.model);
 }
 
-fn radius(ui: &mut Ui, project: &mut Project, idle: Option<String>) {
+fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>; 2]) {
     Knob {
         label: "Soot radius",
         unit: unit::NANOMETRES,
@@ -120,6 +120,9 @@ fn radius(ui: &mut Ui, project: &mut Project, idle: Option<String>) {
                 "The number of particles stays: each grows, and so does the amount of soot.",
             );
     });
+    if let Some(idle) = idle_hold {
+        note(ui, &idle);
+    }
 }
 
 /// How the file's heat becomes kelvin. The numbers of the preset are the defaults.
@@ -146,7 +149,7 @@ fn heat(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
         tip: "Kelvin for one unit of the file's heat. Hotter soot is brighter and whiter: its light grows with about \
               the tenth power of its temperature. Solvers write heat without a unit, so this is the first number to \
               get right. What exceeds the field's bounds is cut off there, and said below.",
-        idle: None,
+        idle: job.and_then(|job| why_idle(job, Control::Heat)),
     }
     .show(ui, &mut scale);
     if changed {

@@ -73,10 +73,19 @@ impl Knob<'_> {
             } else {
                 self.slider[1] - self.slider[0]
             };
-        let complaint = RefCell::new(None);
+        let old = *value;
+        let shown = self.unit.number(old);
+        // `Some` once something was entered: what is wrong with it, if anything is.
+        let entered = RefCell::new(None);
         let parse = |typed: &str| {
-            let parsed = self.unit.parse(typed);
-            complaint.replace(match parsed {
+            // A field that was only looked into has the value that it had, not the few digits that it shows.
+            let parsed = if typed.trim() == shown {
+                Some(old)
+            } else {
+                self.unit.parse(typed)
+            };
+            let complaint = match parsed {
+                _ if parsed == Some(old) => None,
                 None => Some(format!(
                     "“{}” is not understood: type {}",
                     typed.trim(),
@@ -89,7 +98,8 @@ impl Knob<'_> {
                     Some(format!("the most is {}", self.unit.words(high)))
                 }
                 Some(_) => None,
-            });
+            };
+            entered.replace(Some(complaint));
             parsed
         };
         let field = DragValue::new(value)
@@ -103,8 +113,12 @@ impl Knob<'_> {
             .custom_parser(parse);
         let size = vec2(FIELD_WIDTH, ui.spacing().interact_size.y);
         ui.add_sized(size, field).labelled_by(name.id);
-        if let Some(complaint) = complaint.into_inner() {
-            ui.data_mut(|data| data.insert_temp(self.id(), (complaint, *value)));
+        match entered.into_inner() {
+            Some(Some(complaint)) => {
+                ui.data_mut(|data| data.insert_temp(self.id(), (complaint, *value)));
+            }
+            Some(None) => ui.data_mut(|data| data.remove::<(String, f64)>(self.id())),
+            None => {}
         }
     }
 

@@ -48,7 +48,8 @@ fn all_notes(app: &App) -> Vec<Note> {
     notes.extend(app.document.problem().map(Note::plain));
     notes.extend(app.picture.progress.failure.as_deref().map(Note::plain));
     notes.extend(app.meter.flaws().iter().map(Note::plain));
-    if app.meter.is_black() {
+    let job = app.generation().filter(|_| app.shows_newest());
+    if job.is_some_and(|job| app.meter.is_black(job)) {
         notes.extend(app.job().map(|job| {
             let darkness = Darkness::of(job);
             let remedy = darkness
@@ -59,7 +60,7 @@ fn all_notes(app: &App) -> Vec<Note> {
                 remedy,
             }
         }));
-    } else if app.meter.is_underexposed(&app.view()) {
+    } else if app.shows_newest() && app.meter.is_underexposed(&app.view()) {
         notes.push(Note {
             words: "the picture is black at this exposure".to_owned(),
             remedy: Some(("Expose it automatically".to_owned(), Command::AutoExposure)),

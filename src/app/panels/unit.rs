@@ -179,6 +179,13 @@ fn number_of(text: &str) -> Option<f64> {
         return None;
     }
     let decimal_comma = text.matches(',').count() == 1 && !text.contains('.');
+    // "1,500" is fifteen hundred to one person and one and a half to another.
+    let ambiguous = text
+        .split_once(',')
+        .is_some_and(|(_, rest)| rest.len() == 3 && rest.bytes().all(|b| b.is_ascii_digit()));
+    if ambiguous {
+        return None;
+    }
     let text = if decimal_comma {
         text.replace(',', ".")
     } else {
@@ -219,7 +226,7 @@ mod tests {
             );
         }
         for typed in [
-            "", "nm", "12 lbs", "1e400", "inf", "nan", "1,2,3", "--3", "12 nm nm",
+            "", "nm", "12 lbs", "1e400", "inf", "nan", "1,2,3", "1,500", "--3", "12 nm nm",
         ] {
             assert_eq!(NANOMETRES.parse(typed), None, "{typed}");
         }

@@ -5,7 +5,7 @@ use egui::Ui;
 use super::knob::{Choice, Knob};
 use super::quality::capitalised;
 use super::{section, unit};
-use crate::project::{Job, Project, Up, ranges};
+use crate::project::{Control, Job, Project, Up, ranges, why_idle};
 use crate::volume::{FieldKind, Producer, Recognised};
 
 /// Edges of voxels that the slider spans, m.
@@ -94,10 +94,7 @@ fn field(ui: &mut Ui, project: &mut Project, job: &Job, kind: FieldKind) {
             "Smoke from",
             "The grid that becomes smoke, beside the flame's own soot.",
         ),
-        FieldKind::Flame => (
-            "Flame from",
-            "The grid that says where it burns. Soot is assumed there, if no other grid is soot.",
-        ),
+        FieldKind::Flame => ("Flame from", "The grid that says where it burns."),
         FieldKind::Temperature => ("Heat from", "The grid that becomes temperature."),
     };
     let set = &mut project.volume.field_mut(kind).grid;
@@ -121,7 +118,9 @@ fn field(ui: &mut Ui, project: &mut Project, job: &Job, kind: FieldKind) {
         options: &options,
         tip,
         default: None,
-        idle: None,
+        idle: (kind == FieldKind::Flame)
+            .then(|| why_idle(job, Control::FlameField))
+            .flatten(),
     }
     .show(ui, set);
 }
