@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
+use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, ViewportCommand};
 
 use super::files::{Request, paths_of};
 use super::panels::Command;
-use super::{App, Document};
+use super::{App, Closing};
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
 const SHORTCUTS: [(Modifiers, Key, Command); 6] = [
@@ -34,7 +34,6 @@ impl App {
                 Command::CancelLoading => self.cancel_loading(),
                 Command::Undo => self.document.undo(),
                 Command::Redo => self.document.redo(),
-                Command::FrameAll => self.document.change(Document::frame_all),
                 Command::Mend(mend) => self
                     .document
                     .change(|document| mend.apply(&mut document.project)),
@@ -59,8 +58,26 @@ impl App {
                     }
                 }
                 Command::CancelExport => self.exporter.cancel(),
+                Command::CloseAfterExport => self.closing = Closing::AfterExport,
+                Command::CloseNow => self.closing = Closing::Now,
+                Command::KeepOpen => self.closing = Closing::No,
                 Command::ForgetExport => self.exporter.dismiss(),
             }
+        }
+    }
+
+    /// A window that exports is not closed without a word: what was waited for would be lost.
+    pub(super) fn guard_the_export(&mut self, ctx: &Context) {
+        let exports = self.exporter.running().is_some();
+        match self.closing {
+            Closing::Now => ctx.send_viewport_cmd(ViewportCommand::Close),
+            Closing::AfterExport if !exports => ctx.send_viewport_cmd(ViewportCommand::Close),
+            _ if exports && ctx.input(|input| input.viewport().close_requested()) => {
+                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+                self.closing = Closing::Asked;
+            }
+            Closing::Asked if !exports => self.closing = Closing::No,
+            _ => {}
         }
     }
 
@@ -97,6 +114,8 @@ impl App {
             .collect();
         if self.loader.loading().is_some() && pressed(Modifiers::NONE, Key::Escape) {
             commands.push(Command::CancelLoading);
+        } else if pressed(Modifiers::NONE, Key::Escape) {
+            self.panels.export.close();
         }
         commands
     }

@@ -60,7 +60,23 @@ pub struct App {
     recent: Recent,
     /// What went wrong last, until it is dismissed.
     notice: Option<String>,
+    /// Whether somebody wants to close the window while it exports.
+    closing: Closing,
     title: String,
+}
+
+/// What becomes of a window that is to be closed while it exports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Closing {
+    /// Nobody asked.
+    #[default]
+    No,
+    /// It was asked for, and the answer is awaited.
+    Asked,
+    /// It closes once the export has ended.
+    AfterExport,
+    /// It closes, whatever runs.
+    Now,
 }
 
 /// The job that the engine works on.
@@ -120,6 +136,7 @@ impl App {
             panels: Panels::default(),
             recent: Recent::load(creation.storage),
             notice: None,
+            closing: Closing::default(),
             title: String::new(),
         })
     }
@@ -211,14 +228,14 @@ impl App {
         of_the_open_volume && self.renders_newest() && self.picture.progress.done > 0
     }
 
-    /// What was assumed of the file or cannot be faithful in the picture on show, in words.
+    /// What cannot be faithful in the picture on show, then what was assumed of the file, in words.
     fn flaws(&self) -> Vec<&str> {
         let assumed = self
             .document
             .last_job()
             .into_iter()
             .flat_map(|job| job.flaws.iter());
-        assumed.chain(self.picture.progress.flaws.iter()).collect()
+        self.picture.progress.flaws.iter().chain(assumed).collect()
     }
 
     /// Takes in what the engine rendered.
@@ -279,6 +296,8 @@ impl App {
         match way(&mut self.document, volume) {
             Ok(()) => {
                 self.loader.forget_older();
+                self.panels.file.path.clear();
+                self.exporter.dismiss();
                 if let Some(volume) = self.document.volume() {
                     self.recent.add(&volume.sources);
                 }
@@ -362,6 +381,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        self.guard_the_export(&ctx);
         self.take_drops(&ctx);
         let mut commands = self.take_keys(&ctx);
 

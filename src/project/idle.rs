@@ -38,7 +38,7 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
     let no_soot = flame.soot_amount <= 0.0 && flame.smoke_amount <= 0.0;
     let words = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
-            "Chang and Charalampopoulos measured one soot for all fuels: choose another soot model to tell them apart"
+            "this soot model has one soot for all fuels: choose another below"
         }
         Control::Fuel
         | Control::SootModel
@@ -63,7 +63,7 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::SootAmount => "this volume has no soot field",
         Control::SmokeAmount => "this volume has no smoke field: choose a grid for it under Volume",
         Control::Humidity => "humidity acts through refraction; nothing behind the fire shows it",
-        Control::Co2 => "carbon dioxide acts through refraction; nothing behind the fire shows it",
+        Control::Co2 => "CO₂ acts through refraction; nothing behind the fire shows it",
     };
     let same = |change: &dyn Fn(&mut FlameParams)| {
         let mut other = flame.clone();

@@ -60,7 +60,7 @@ impl Plan {
         let thickest = densest * f64::from(medium.peak_volume_fraction()) * step_m;
         if thickest > THICK_STEP {
             plan.flaws.add(format!(
-                "the soot is so dense that a step of {} voxel lengths is up to {thickest:.1} optical depths thick: take \
+                "the soot is so dense that a step of {} × a voxel's edge is up to {thickest:.1} optical depths thick: take \
                  smaller steps, or less soot",
                 settings.step_voxels
             ));

@@ -1,5 +1,6 @@
 //! Pointer and keys over the picture: the camera moves, the picture zooms, and undo takes back whole gestures.
 
+use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -7,7 +8,7 @@ use sootlight::app::App;
 use sootlight::project::{CameraSettings, Project};
 use sootlight::scene::Camera;
 
-use super::window;
+use super::{window, window_of};
 
 /// A place on the picture, and another.
 const HERE: Pos2 = pos2(84.0, 120.0);
@@ -261,4 +262,22 @@ fn what_is_typed_into_a_field_moves_nothing() {
     harness.run_steps(2);
     assert_eq!(camera(&harness), before);
     harness.get_by_label("Zoom 100 %");
+}
+
+#[test]
+fn a_hand_on_the_picture_leaves_the_field_that_was_typed_into() {
+    let mut harness = window_of(Project::default(), [480.0, 1200.0]);
+    let radius = |harness: &Harness<'_, App>| harness.state().document().project.soot.radius_nm;
+    let before = radius(&harness);
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Soot radius")
+        .click();
+    harness.run_steps(3);
+    drag(&mut harness, PointerButton::Primary, Modifiers::NONE);
+    let dragged = camera(&harness);
+    harness.event(Event::Text("3".to_owned()));
+    harness.key_press(Key::Num3);
+    harness.run_steps(3);
+    assert_ne!(camera(&harness), dragged, "a key for the camera");
+    assert_eq!(radius(&harness), before);
 }

@@ -51,7 +51,7 @@ fn type_into(harness: &mut Harness<'_, App>, label: &str, text: &str) {
 fn fuel_changes_the_job_and_the_picture_where_the_soot_model_looks_at_it() {
     let mut harness = tall_window(Project::default());
     let (before, generation) = (job(&harness), harness.state().generation());
-    harness.get_by_label_contains("measured one soot for all fuels");
+    harness.get_by_label_contains("one soot for all fuels");
     choose(&mut harness, "Fuel", "Acetylene, C₂H₂");
     assert_eq!(job(&harness).flame.fuel, Fuel::Acetylene);
     assert_eq!(
@@ -63,10 +63,12 @@ fn fuel_changes_the_job_and_the_picture_where_the_soot_model_looks_at_it() {
     choose(&mut harness, "Soot model", "Dalzell & Sarofim 1969");
     assert_eq!(job(&harness).flame.soot_model, SootModel::DalzellSarofim);
     assert!(harness.query_by_label_contains("for all fuels").is_none());
+    settle(&mut harness);
     let acetylene = harness.state().generation();
     assert_ne!(acetylene, generation);
     choose(&mut harness, "Fuel", "Propane, C₃H₈");
     assert_eq!(job(&harness).flame.fuel, Fuel::Propane);
+    settle(&mut harness);
     assert_ne!(harness.state().generation(), acetylene);
     assert_eq!(job(&harness).settings, before.settings);
     assert_eq!(job(&harness).camera, before.camera);
@@ -92,8 +94,7 @@ fn humidity_and_carbon_dioxide_change_the_air_and_say_that_nothing_shows_it() {
         "rendered for nothing"
     );
     harness.get_by_label("humidity acts through refraction; nothing behind the fire shows it");
-    harness
-        .get_by_label("carbon dioxide acts through refraction; nothing behind the fire shows it");
+    harness.get_by_label("CO₂ acts through refraction; nothing behind the fire shows it");
 }
 
 #[test]
@@ -184,7 +185,7 @@ fn heat_smoke_fields_and_producer_change_what_the_file_means() {
 
     choose(&mut harness, "Producer", "Blender");
     assert_eq!(job(&harness).producer, Producer::Blender);
-    choose(&mut harness, "Heat from", "None");
+    choose(&mut harness, "Temp. from", "None");
     assert!(job(&harness).flame.maps.temperature.is_none());
 
     set_slider(&mut harness, "Voxel size", 0.02);

@@ -138,6 +138,14 @@ fn as_i_see_it_is_the_picture_on_show() {
     );
 
     // It is there: the next one replaces it, and says so.
+    assert!(harness.query_by_label("fire.png exists").is_none());
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(3);
+    assert!(
+        harness.query_by_label("As I see it").is_none(),
+        "Esc closes"
+    );
+    press(&mut harness, "Export…");
     harness.get_by_label("fire.png exists");
     press(&mut harness, "Replace");
     wait_for(&mut harness, "fire.png written");
@@ -344,4 +352,42 @@ fn the_keyboard_opens_it_and_a_small_window_holds_it() {
     harness.get_by_label("Close").click();
     harness.run_steps(2);
     assert!(harness.query_by_label("Choose…").is_none());
+}
+
+/// Asks the window to close, as its frame's button does; whether it does close.
+fn ask_to_close(harness: &mut Harness<'_, App>) -> bool {
+    let root = egui::ViewportId::ROOT;
+    let viewport = harness.input_mut().viewports.entry(root).or_default();
+    viewport.events.push(egui::ViewportEvent::Close);
+    harness.run_steps(1);
+    let commands = &harness.output().viewport_output[&root].commands;
+    !commands.contains(&egui::ViewportCommand::CancelClose)
+}
+
+#[test]
+fn a_window_that_exports_asks_before_it_closes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("fire.png");
+    let mut harness = window(Project::default());
+    assert!(ask_to_close(&mut harness), "nothing holds it");
+    ask_for(&mut harness, &path);
+    set_number(&mut harness, "Width", 4000);
+    press(&mut harness, "Export");
+    assert!(!ask_to_close(&mut harness));
+    harness.run_steps(3);
+    harness.get_by_label_contains("An export is running");
+
+    press(&mut harness, "Go on working");
+    assert!(
+        harness
+            .query_by_label_contains("An export is running")
+            .is_none()
+    );
+    assert!(!ask_to_close(&mut harness));
+    harness.run_steps(3);
+    press(&mut harness, "Stop it and close");
+    assert!(
+        ask_to_close(&mut harness),
+        "it was told to close, whatever runs"
+    );
 }

@@ -101,6 +101,10 @@ impl Canvas {
             pixels_per_point: ui.pixels_per_point(),
             sizes,
         };
+        // A hand on the picture has left the field that it was typing into.
+        if response.is_pointer_button_down_on() {
+            ui.memory_mut(egui::Memory::stop_text_input);
+        }
         let mut moved = camera;
         let frame_all = self.moves.take(&response, space, &pressed, &mut moved);
         let mapping = self.moves.placement.mapping(sizes);

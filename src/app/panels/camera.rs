@@ -3,7 +3,7 @@
 use egui::Ui;
 
 use super::knob::{Choice, Knob, note};
-use super::{Command, section, unit};
+use super::{section, unit};
 use crate::app::Document;
 use crate::project::ranges;
 use crate::scene::camera::{FRAMING_FOV_DEG, focal_length_mm, fov_deg};
@@ -21,7 +21,7 @@ const SIZES: [[u32; 2]; 6] = [
 ];
 
 /// Draws the section.
-pub(super) fn show(ui: &mut Ui, document: &mut Document, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, document: &mut Document) {
     section(ui, "Camera", true, |ui| {
         lens(ui, document);
         let mut sizes = SIZES.to_vec();
@@ -42,16 +42,9 @@ pub(super) fn show(ui: &mut Ui, document: &mut Document, commands: &mut Vec<Comm
             idle: None,
         }
         .show(ui, &mut document.fixed_size);
-        if ui
-            .button("Frame the fire")
-            .on_hover_text("Shows all of the fire (Home).")
-            .clicked()
-        {
-            commands.push(Command::FrameAll);
-        }
         note(
             ui,
-            "Drag the picture to orbit, with Shift to pan; the wheel moves nearer.",
+            "Drag the picture to orbit, with Shift to pan; the wheel moves nearer; Home frames all of the fire.",
         );
     });
 }

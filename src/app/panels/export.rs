@@ -12,7 +12,7 @@ use self::size::Size;
 use self::target::Target;
 use super::{Command, short};
 use crate::app::exporter::{Exactness, Exporter, Outcome, Progress, Wish};
-use crate::app::theme::{ERROR, WARNING};
+use crate::app::theme::{ERROR, IDLE, WARNING};
 use crate::app::{App, Document};
 use crate::export::Format;
 use crate::render::{MAX_SIDE, Settings};
@@ -38,6 +38,11 @@ impl ExportPanel {
         exporter.dismiss();
         self.target
             .name_after(document.volume().map_or(&[], |volume| &volume.sources));
+    }
+
+    /// Closes the window, if it is open. True if it was.
+    pub(in crate::app) fn close(&mut self) -> bool {
+        std::mem::take(&mut self.is_open)
     }
 
     /// Draws the window if it is open. `canvas` is the size of the picture on show in pixels.
@@ -86,6 +91,7 @@ impl ExportPanel {
             self.quality(ui);
             ui.end_row();
         });
+        ui.label(RichText::new(self.target.whereabouts()).small().color(IDLE));
         if let Some(words) = self.target.problem() {
             warn(ui, words);
         }
@@ -227,8 +233,10 @@ impl ExportPanel {
                     commands.push(Command::Export(wish));
                 }
             }
-            self.is_open &= !ui.button("Close").clicked();
-            if let (Some(name), false) = (existing, runs) {
+            self.is_open &= !ui.button("Close").on_hover_text("Key: Esc").clicked();
+            // What was just written needs no warning.
+            let told = runs || exporter.last().is_some();
+            if let (Some(name), false) = (existing, told) {
                 ui.add(
                     Label::new(RichText::new(format!("{name} exists")).color(WARNING)).truncate(),
                 );

@@ -15,7 +15,7 @@ use crate::scene::flame::world_bounds;
 /// What the section remembers between frames.
 #[derive(Debug, Default)]
 pub(in crate::app) struct FilePanel {
-    path: String,
+    pub(in crate::app) path: String,
     /// Whether this desktop turned out to have no dialog.
     pub(in crate::app) no_dialog: bool,
 }
@@ -61,8 +61,8 @@ impl FilePanel {
                 .desired_width(f32::INFINITY);
             let field = ui.add(field).on_hover_text("The path of a volume file.");
             if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
+                // It stays until something was opened: a slip of the finger is soon mended.
                 commands.push(Command::Open(paths_of(&self.path)));
-                self.path.clear();
             }
         });
         if self.no_dialog {

@@ -34,6 +34,10 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
             idle: idle(Control::SootAmount),
         }
         .show(ui, &mut project.soot.amount);
+        let smokes = job.is_some_and(|job| job.flame.maps.smoke.is_some());
+        if project.soot.amount <= 0.0 && project.smoke.amount > 0.0 && smokes {
+            note(ui, "what still glows is smoke");
+        }
     });
 }
 

@@ -13,7 +13,7 @@ use crate::app::theme::{IDLE, WARNING};
 /// Width of the names in front of the controls, points.
 const NAME_WIDTH: f32 = 108.0;
 /// Width of the fields behind the sliders, points.
-const FIELD_WIDTH: f32 = 84.0;
+const FIELD_WIDTH: f32 = 100.0;
 /// How far a dragged field moves for each point, as a share of its range or (on a logarithmic scale) of its value.
 const DRAG_SHARE: f64 = 0.005;
 
@@ -108,7 +108,7 @@ impl Knob<'_> {
             .update_while_editing(false)
             .speed(speed)
             .max_decimals(12)
-            .suffix(format!(" {}", self.unit.name))
+            .suffix(format!(" {}", self.unit.beside(old)))
             .custom_formatter(|value, _| self.unit.number(value))
             .custom_parser(parse);
         let size = vec2(FIELD_WIDTH, ui.spacing().interact_size.y);

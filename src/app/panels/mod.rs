@@ -41,8 +41,6 @@ pub(super) enum Command {
     Undo,
     /// Take the last undo back.
     Redo,
-    /// Show all of the fire.
-    FrameAll,
     /// Change what keeps the picture black.
     Mend(Mend),
     /// Measure exposure and white on the present picture, and expose so.
@@ -57,12 +55,18 @@ pub(super) enum Command {
     Export(Wish),
     /// Stop exporting.
     CancelExport,
+    /// Close the window as soon as the export is done.
+    CloseAfterExport,
+    /// Close the window and give the export up.
+    CloseNow,
+    /// Keep the window open.
+    KeepOpen,
     /// Take away what is said of the last export.
     ForgetExport,
 }
 
 /// Width of the panel in points, scroll bar included.
-const WIDTH: f32 = 348.0;
+const WIDTH: f32 = 372.0;
 /// Widest share of the window that the panel takes.
 const MOST_OF_WINDOW: f32 = 0.6;
 /// Space around the controls.
@@ -99,6 +103,8 @@ impl Panels {
             .show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     Frame::new().inner_margin(MARGIN).show(ui, |ui| {
+                        // Whatever a row says, the panel is as wide as it is.
+                        ui.set_max_width(width - 2.0 * f32::from(MARGIN));
                         self.file.show(ui, document, recent, commands);
                         let recognised = document.recognised().cloned();
                         let (project, job) = document.parts();
@@ -108,7 +114,7 @@ impl Panels {
                         quality::show(ui, project);
                         fire::heat_and_smoke(ui, project, job);
                         volume::show(ui, project, job, recognised.as_ref());
-                        camera::show(ui, document, commands);
+                        camera::show(ui, document);
                         file::findings(ui, document);
                         file::flaws(ui, flaws);
                     });

@@ -1,13 +1,13 @@
 //! What lies over the picture: what went wrong, and where dropped files will land.
 
 use egui::{
-    Align2, Area, Color32, FontId, Frame, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind,
-    Ui, vec2,
+    Align2, Area, Color32, FontId, Frame, Id, LayerId, Modal, Order, Rect, RichText, Stroke,
+    StrokeKind, Ui, vec2,
 };
 
 use super::Command;
-use crate::app::App;
 use crate::app::theme::ERROR;
+use crate::app::{App, Closing};
 use crate::project::Darkness;
 
 /// Height of a line of the drop target in points.
@@ -18,10 +18,33 @@ const NOTE_WIDTH: f32 = 520.0;
 /// Draws notes in the corner of the picture, and the drop target while files hover.
 pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
     notes(ui, app, canvas, commands);
+    if app.closing == Closing::Asked {
+        ask_before_closing(ui, commands);
+    }
     let hovering = ui.input(|input| input.raw.hovered_files.clone());
     if !hovering.is_empty() {
         drop_target(ui, &hovering);
     }
+}
+
+/// An export runs and the window is to be closed.
+fn ask_before_closing(ui: &Ui, commands: &mut Vec<Command>) {
+    Modal::new(Id::unique("closing")).show(ui.ctx(), |ui| {
+        ui.set_width(NOTE_WIDTH.min(0.8 * ui.ctx().content_rect().width()));
+        ui.label("An export is running. If the window closes now, nothing will be written.");
+        ui.add_space(8.0);
+        ui.horizontal_wrapped(|ui| {
+            for (label, command) in [
+                ("Close when it is done", Command::CloseAfterExport),
+                ("Stop it and close", Command::CloseNow),
+                ("Go on working", Command::KeepOpen),
+            ] {
+                if ui.button(label).clicked() {
+                    commands.push(command);
+                }
+            }
+        });
+    });
 }
 
 /// Something to tell over the picture, and what can be done about it.

@@ -32,8 +32,18 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
             render.step_voxels = (step != step_default).then_some(step);
         }
 
+        let changed_by_hand = render.step_voxels.is_some()
+            || render.wavelengths.is_some()
+            || render.samples_per_pixel.is_some();
         let options = Quality::ALL.map(|quality| {
             let (step, wavelengths, rays) = quality.numbers();
+            if changed_by_hand && quality == render.quality {
+                return (
+                    quality,
+                    format!("{} · changed", capitalised(quality.name())),
+                    "",
+                );
+            }
             let words = format!(
                 "{} · step {step}, {} λ, {rays} {}",
                 capitalised(quality.name()),

@@ -101,12 +101,12 @@ const BAR_WIDTH: f32 = 96.0;
 /// Room that is kept for the flaws' words and the panel's button, points.
 const FLAWS_WIDTH: f32 = 180.0;
 
-/// What of the picture is assumed, always in sight: the first in words, all of them under the pointer.
+/// What of the picture is not faithful or assumed, always in sight: the first in words, all of them under the pointer.
 fn flaw_words(ui: &mut Ui, flaws: &[&str]) {
     let words = match flaws {
         [] => return,
         [only] => (*only).to_owned(),
-        [first, rest @ ..] => format!("{} assumptions: {first}; +{}", flaws.len(), rest.len()),
+        [first, rest @ ..] => format!("{first} (+{} more)", rest.len()),
     };
     let lines: Vec<String> = flaws.iter().map(|flaw| format!("• {flaw}")).collect();
     ui.add(Label::new(RichText::new(words).color(WARNING)).truncate())
@@ -166,12 +166,15 @@ fn cells(progress: &Progress, since_submit: Duration) -> Vec<(String, f32)> {
     ]
 }
 
+/// Finished share up to which nothing can be told of the rest: tiles begin in the middle, where the fire is.
+const TOO_EARLY: f64 = 0.05;
+
 /// How long the rest takes, if it goes on as it went.
 fn time_left(progress: &Progress, elapsed: f64) -> String {
     let share = f64::from(share(progress));
     if progress.finished {
         "done".to_owned()
-    } else if share > 0.0 {
+    } else if share > TOO_EARLY {
         format!("{:.1} s left", elapsed * (1.0 - share) / share)
     } else {
         "… s left".to_owned()

@@ -8,6 +8,8 @@ type Convert = fn(f64) -> f64;
 pub(super) struct Unit {
     /// The unit it is shown in, behind the number.
     pub(super) name: &'static str,
+    /// The unit behind a 1, where that is another word.
+    pub(super) one: Option<&'static str>,
     /// What is shown for a value of 1.
     pub(super) shown: f64,
     /// Decimals that are worth showing.
@@ -25,6 +27,7 @@ fn same(number: f64) -> f64 {
 /// Lengths of particles, held in nm.
 pub(super) const NANOMETRES: Unit = Unit {
     name: "nm",
+    one: None,
     shown: 1.0,
     decimals: 2,
     also: &[
@@ -41,6 +44,7 @@ pub(super) const NANOMETRES: Unit = Unit {
 /// Shares, held as 0 to 1.
 pub(super) const PERCENT: Unit = Unit {
     name: "%",
+    one: None,
     shown: 100.0,
     decimals: 0,
     also: &[("percent", same)],
@@ -50,6 +54,7 @@ pub(super) const PERCENT: Unit = Unit {
 /// Mole fractions, held in parts in a million.
 pub(super) const PPM: Unit = Unit {
     name: "ppm",
+    one: None,
     shown: 1.0,
     decimals: 0,
     also: &[("%", |n| 1e4 * n), ("‰", |n| 1e3 * n)],
@@ -59,6 +64,7 @@ pub(super) const PPM: Unit = Unit {
 /// Factors.
 pub(super) const TIMES: Unit = Unit {
     name: "×",
+    one: None,
     shown: 1.0,
     decimals: 2,
     also: &[("x", same), ("times", same), ("%", |n| 0.01 * n)],
@@ -68,6 +74,7 @@ pub(super) const TIMES: Unit = Unit {
 /// Lengths of steps.
 pub(super) const VOXELS: Unit = Unit {
     name: "voxels",
+    one: Some("voxel"),
     shown: 1.0,
     decimals: 2,
     also: &[("voxel", same), ("vx", same)],
@@ -77,6 +84,7 @@ pub(super) const VOXELS: Unit = Unit {
 /// Exposures.
 pub(super) const STOPS: Unit = Unit {
     name: "EV",
+    one: None,
     shown: 1.0,
     decimals: 2,
     also: &[("stops", same), ("stop", same)],
@@ -86,6 +94,7 @@ pub(super) const STOPS: Unit = Unit {
 /// Temperatures.
 pub(super) const KELVIN: Unit = Unit {
     name: "K",
+    one: None,
     shown: 1.0,
     decimals: 0,
     also: &[
@@ -99,16 +108,18 @@ pub(super) const KELVIN: Unit = Unit {
 
 /// Kelvin for one unit of a file.
 pub(super) const KELVIN_PER_UNIT: Unit = Unit {
-    name: "K",
+    name: "K/unit",
+    one: None,
     shown: 1.0,
     decimals: 1,
-    also: &[],
+    also: &[("k", same)],
     example: "780 K for each unit of the file",
 };
 
 /// Edges of voxels, held in m.
 pub(super) const MILLIMETRES: Unit = Unit {
     name: "mm",
+    one: None,
     shown: 1000.0,
     decimals: 2,
     also: &[
@@ -122,6 +133,7 @@ pub(super) const MILLIMETRES: Unit = Unit {
 /// Focal lengths on a 36 × 24 mm frame, held in mm; an angle is the picture's vertical field of view.
 pub(super) const FOCAL_LENGTH: Unit = Unit {
     name: "mm",
+    one: None,
     shown: 1.0,
     decimals: 1,
     also: &[
@@ -137,8 +149,9 @@ impl Unit {
     pub(super) fn number(&self, value: f64) -> String {
         let shown = value * self.shown;
         let text = format!("{shown:.*}", self.decimals);
-        // A small number must not look like zero, nor a clean one like a measured one.
-        if shown != 0.0 && shown.abs() < 0.5 * 10f64.powi(-(self.decimals as i32)) {
+        // A small number must not look like zero, nor a large one fill the panel.
+        let small = shown.abs() < 0.5 * 10f64.powi(-(self.decimals as i32));
+        if shown != 0.0 && small || shown.abs() >= 1e5 {
             return super::short(shown);
         }
         if self.decimals > 0 {
@@ -149,7 +162,15 @@ impl Unit {
 
     /// A value in words, with its unit.
     pub(super) fn words(&self, value: f64) -> String {
-        format!("{} {}", self.number(value), self.name)
+        format!("{} {}", self.number(value), self.beside(value))
+    }
+
+    /// The unit as it stands beside a value.
+    pub(super) fn beside(&self, value: f64) -> &'static str {
+        match self.one {
+            Some(one) if self.number(value) == "1" => one,
+            _ => self.name,
+        }
     }
 
     /// The value that a person typed: a number with or without a unit, with a decimal point or a single comma.
@@ -240,5 +261,8 @@ mod tests {
         assert_eq!(TIMES.number(1e-4), "1.00e-4");
         assert_eq!(TIMES.number(0.0), "0");
         assert_eq!(KELVIN.words(300.0), "300 K");
+        assert_eq!(KELVIN.words(7.0003e8), "7.00e8 K");
+        assert_eq!(VOXELS.words(1.0), "1 voxel");
+        assert_eq!(VOXELS.words(1.5), "1.5 voxels");
     }
 }

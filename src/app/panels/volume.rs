@@ -6,7 +6,7 @@ use super::knob::{Choice, Knob};
 use super::quality::capitalised;
 use super::{section, unit};
 use crate::project::{Control, Job, Project, Up, ranges, why_idle};
-use crate::volume::{FieldKind, Producer, Recognised};
+use crate::volume::{FieldKind, Producer, Recognised, UpAxis};
 
 /// Edges of voxels that the slider spans, m.
 const VOXELS_M: [f64; 2] = [1e-4, 1.0];
@@ -23,8 +23,13 @@ pub(super) fn show(
             return;
         };
         producer(ui, project, recognised);
+        let automatic = match (project.volume.up, job.flame.placement.up) {
+            (Up::Auto, UpAxis::Y) => "Auto: y",
+            (Up::Auto, UpAxis::Z) => "Auto: z",
+            _ => "Auto",
+        };
         let options = [
-            (Up::Auto, "Auto", "As the producer writes it."),
+            (Up::Auto, automatic, "As the producer writes it."),
             (Up::Y, "y", ""),
             (Up::Z, "z", ""),
         ]
@@ -95,7 +100,7 @@ fn field(ui: &mut Ui, project: &mut Project, job: &Job, kind: FieldKind) {
             "The grid that becomes smoke, beside the flame's own soot.",
         ),
         FieldKind::Flame => ("Flame from", "The grid that says where it burns."),
-        FieldKind::Temperature => ("Heat from", "The grid that becomes temperature."),
+        FieldKind::Temperature => ("Temp. from", "The grid that becomes temperature."),
     };
     let set = &mut project.volume.field_mut(kind).grid;
     let automatic = match (&*set, job.flame.maps.get(kind)) {
