@@ -253,9 +253,7 @@ fn the_buttons_do_what_they_are_called() {
 fn what_is_typed_into_a_field_moves_nothing() {
     let mut harness = window(Project::default());
     let before = camera(&harness);
-    harness
-        .get_by_role(egui::accesskit::Role::TextInput)
-        .focus();
+    harness.get_by_role(Role::TextInput).focus();
     harness.run_steps(2);
     harness.key_press(Key::Num3);
     harness.key_press(Key::Plus);
