@@ -3,9 +3,10 @@
 use egui::Ui;
 
 use super::knob::{Choice, Knob, name, note};
-use super::{section, unit};
+use super::{section, short, unit};
 use crate::physics::soot::{
     Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM, SootModel,
+    volume_fraction_factor,
 };
 use crate::project::{Control, Job, Project, SootSettings, ranges, why_idle};
 use crate::scene::Fuel;
@@ -124,9 +125,14 @@ fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>
                 "The number of particles stays: each grows, and so does the amount of soot.",
             );
     });
-    if let Some(idle) = idle_hold {
-        note(ui, &idle);
-    }
+    // There is always a line, so that nothing below moves while the radius does.
+    let soot = &project.soot;
+    let factor = volume_fraction_factor(soot.hold, soot.radius_nm);
+    let words = match soot.hold {
+        Hold::Number => format!("{} × the file's soot, by the radius", short(factor)),
+        Hold::Volume => "as much soot as the file has".to_owned(),
+    };
+    note(ui, &idle_hold.unwrap_or(words));
 }
 
 /// How the file's heat becomes kelvin. The numbers of the preset are the defaults.
