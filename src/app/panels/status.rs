@@ -106,7 +106,7 @@ fn flaw_words(ui: &mut Ui, flaws: &[&str]) {
     let words = match flaws {
         [] => return,
         [only] => (*only).to_owned(),
-        [first, rest @ ..] => format!("{first} (+{} more)", rest.len()),
+        [first, ..] => format!("{} flaws: {first}", flaws.len()),
     };
     let lines: Vec<String> = flaws.iter().map(|flaw| format!("• {flaw}")).collect();
     ui.add(Label::new(RichText::new(words).color(WARNING)).truncate())
