@@ -11,14 +11,15 @@ mod files;
 mod hands;
 mod history;
 mod meter;
+mod opening;
 mod panels;
+mod pictures;
 mod recent;
 mod start;
 mod theme;
 
-use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 pub use canvas::{Display, Mapping};
 pub use document::{Document, FieldRow};
@@ -26,23 +27,20 @@ pub use start::{AppError, run};
 
 use self::canvas::Canvas;
 use self::exporter::Exporter;
-use self::files::{Loader, Outcome, Request};
+use self::files::{Loader, Request};
 use self::meter::Meter;
 use self::panels::Panels;
+use self::pictures::Submitted;
 use self::recent::Recent;
 use crate::colour::display::View;
 use crate::engine::{Engine, Generation, Picture};
-use crate::project::{CameraSettings, Job, Project, ProjectError, VolumeSettings};
-use crate::volume::Volume;
+use crate::project::{Job, Project};
 
 /// While tiles come in, the picture is drawn this often: each drawing takes time from the workers where the
 /// processor is also the graphics card.
 const FRAME: Duration = Duration::from_millis(30);
 /// While a file is read, how far it is is drawn this often.
 const LOADING_FRAME: Duration = Duration::from_millis(100);
-
-/// So long a changed job waits for the first picture of the one before it.
-const LONGEST_WAIT: Duration = Duration::from_millis(250);
 
 /// The window.
 pub struct App {
@@ -77,29 +75,6 @@ enum Closing {
     AfterExport,
     /// It closes, whatever runs.
     Now,
-}
-
-/// The job that the engine works on.
-struct Submitted {
-    job: Job,
-    generation: Generation,
-    at: Instant,
-    /// When its first news came: the medium is packed then.
-    begun: Option<Instant>,
-}
-
-impl Submitted {
-    /// Whether the first picture of this job is about to come, so that another of the same volume waits for it. While
-    /// the medium is packed nothing could begin anyway; after that the wait is bounded.
-    fn is_worth_waiting_for(&self, next: &Job, picture: &Picture) -> bool {
-        let progress = &picture.progress;
-        let is_newest = picture.generation() == Some(self.generation);
-        let came = is_newest && (progress.done > 0 || progress.failure.is_some());
-        let long = self
-            .begun
-            .is_some_and(|begun| begun.elapsed() > LONGEST_WAIT);
-        Arc::ptr_eq(&self.job.volume, &next.volume) && !came && !long
-    }
 }
 
 impl App {
@@ -187,45 +162,9 @@ impl App {
         self.notice.as_deref()
     }
 
-    /// Opens files as if they had been dropped on the window.
-    pub fn open(&mut self, paths: Vec<PathBuf>) {
-        let request = match (self.document.wants_a_partner(), paths.as_slice()) {
-            (_, []) => return,
-            (Some(open), [path]) => Request::Partner(Arc::clone(open), path.clone()),
-            _ => Request::Files(paths),
-        };
-        self.notice = None;
-        self.loader.begin(request);
-    }
-
-    /// Stops whatever is being loaded; what is open stays. Where nothing is open yet, the built-in flame is loaded.
-    pub fn cancel_loading(&mut self) {
-        if self.loader.loading().is_none() {
-            return;
-        }
-        self.loader.cancel();
-        if self.document.volume().is_none() {
-            self.fall_back();
-        }
-    }
-
     /// Moves the camera so that all of the flame is seen, from the side that it is seen from now.
     pub fn frame_all(&mut self) {
         self.document.frame_all();
-    }
-
-    /// Whether the engine's news are about the job submitted last.
-    fn renders_newest(&self) -> bool {
-        self.generation().is_some() && self.picture.generation() == self.generation()
-    }
-
-    /// Whether the picture is of the open volume and of the job submitted last, however coarse.
-    fn shows_newest(&self) -> bool {
-        let of_the_open_volume = match (self.document.volume(), &self.submitted) {
-            (Some(open), Some(submitted)) => Arc::ptr_eq(open, &submitted.job.volume),
-            _ => false,
-        };
-        of_the_open_volume && self.renders_newest() && self.picture.progress.done > 0
     }
 
     /// What cannot be faithful in the picture on show, then what was assumed of the file, in words.
@@ -236,117 +175,6 @@ impl App {
             .into_iter()
             .flat_map(|job| job.flaws.iter());
         self.picture.progress.flaws.iter().chain(assumed).collect()
-    }
-
-    /// Takes in what the engine rendered.
-    fn drain(&mut self) {
-        for update in self.engine.drain() {
-            self.picture.take(update);
-        }
-        if self.renders_newest()
-            && let Some(submitted) = &mut self.submitted
-        {
-            submitted.begun.get_or_insert_with(Instant::now);
-        }
-        let Some(submitted) = &self.submitted else {
-            return;
-        };
-        if self.shows_newest() {
-            let (flame, known) = (&submitted.job.flame, self.document.metering);
-            if let Some(metering) = self.meter.follow(&self.picture, flame, known) {
-                self.document.measured(metering);
-            }
-        }
-    }
-
-    /// Takes in what the loader read.
-    fn receive(&mut self) {
-        while let Some(outcome) = self.loader.poll() {
-            match outcome {
-                Outcome::Shown(volume) => self.show(volume, Document::open),
-                Outcome::Replaced(volume) => self.show(volume, Document::replace),
-                Outcome::Completed { open, both } => {
-                    let now = self.document.volume();
-                    let same = now.is_some_and(|now| Arc::ptr_eq(now, &open));
-                    // Settings made for another volume do not suit these files.
-                    let way = if same {
-                        Document::complete
-                    } else {
-                        Document::replace
-                    };
-                    self.show(both, way);
-                }
-                Outcome::Failed { request, words } => {
-                    self.refuse(&words, !matches!(request, Request::BuiltIn));
-                }
-                Outcome::Chosen(paths) => self.open(paths),
-                Outcome::NoDialog => self.panels.file.no_dialog = true,
-            }
-        }
-    }
-
-    /// Shows a volume in one of the document's ways, or says why not.
-    fn show(
-        &mut self,
-        volume: Arc<Volume>,
-        way: fn(&mut Document, Arc<Volume>) -> Result<(), ProjectError>,
-    ) {
-        let name = |path: &PathBuf| path.display().to_string();
-        let names = volume.sources.iter().map(name).collect::<Vec<_>>();
-        match way(&mut self.document, volume) {
-            Ok(()) => {
-                self.loader.forget_older();
-                self.panels.file.path.clear();
-                self.exporter.dismiss();
-                if let Some(volume) = self.document.volume() {
-                    self.recent.add(&volume.sources);
-                }
-            }
-            Err(error) => self.refuse(&format!("{}: {error}", names.join(", ")), true),
-        }
-    }
-
-    /// Says why something was not opened. Where that would leave the window without anything, the built-in flame
-    /// is shown, unless that is what failed.
-    fn refuse(&mut self, words: &str, built_in_may_help: bool) {
-        let empty = self.document.volume().is_none() && self.loader.loading().is_none();
-        let mut end = "";
-        if empty && built_in_may_help {
-            self.fall_back();
-            end = ". The built-in flame is shown instead";
-        }
-        self.notice = Some(format!("{words}{end}"));
-    }
-
-    /// Loads the built-in flame in place of what the project names.
-    fn fall_back(&mut self) {
-        // The settings were made for files that are not shown.
-        self.document.project.volume = VolumeSettings::default();
-        self.document.project.camera = CameraSettings::default();
-        self.loader.begin(Request::BuiltIn);
-    }
-
-    /// Submits the document's job if it is another than the one submitted last.
-    fn follow(&mut self) {
-        let Some(size) = self.canvas_size else { return };
-        let Some(job) = self.document.job(size) else {
-            return;
-        };
-        match &mut self.submitted {
-            // The same picture may be meant by other numbers, such as a humidity that nothing shows.
-            Some(submitted) if submitted.job == *job => submitted.job = job.clone(),
-            // A slider that moves faster than pictures come would starve them all.
-            Some(submitted) if submitted.is_worth_waiting_for(job, &self.picture) => {}
-            _ => {
-                let generation = self.engine.submit(job.clone());
-                self.submitted = Some(Submitted {
-                    job: job.clone(),
-                    generation,
-                    at: Instant::now(),
-                    begun: None,
-                });
-            }
-        }
     }
 
     fn retitle(&mut self, ctx: &egui::Context) {

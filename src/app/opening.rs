@@ -1,0 +1,100 @@
+//! Opening volumes: what is asked for, what came of it, and what is shown where it failed.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::files::{Outcome, Request};
+use super::{App, Document};
+use crate::project::{CameraSettings, ProjectError, VolumeSettings};
+use crate::volume::Volume;
+
+impl App {
+    /// Opens files as if they had been dropped on the window.
+    pub fn open(&mut self, paths: Vec<PathBuf>) {
+        let request = match (self.document.wants_a_partner(), paths.as_slice()) {
+            (_, []) => return,
+            (Some(open), [path]) => Request::Partner(Arc::clone(open), path.clone()),
+            _ => Request::Files(paths),
+        };
+        self.notice = None;
+        self.loader.begin(request);
+    }
+
+    /// Stops whatever is being loaded; what is open stays. Where nothing is open yet, the built-in flame is loaded.
+    pub fn cancel_loading(&mut self) {
+        if self.loader.loading().is_none() {
+            return;
+        }
+        self.loader.cancel();
+        if self.document.volume().is_none() {
+            self.fall_back();
+        }
+    }
+
+    /// Takes in what the loader read.
+    pub(super) fn receive(&mut self) {
+        while let Some(outcome) = self.loader.poll() {
+            match outcome {
+                Outcome::Shown(volume) => self.show(volume, Document::open),
+                Outcome::Replaced(volume) => self.show(volume, Document::replace),
+                Outcome::Completed { open, both } => {
+                    let now = self.document.volume();
+                    let same = now.is_some_and(|now| Arc::ptr_eq(now, &open));
+                    // Settings made for another volume do not suit these files.
+                    let way = if same {
+                        Document::complete
+                    } else {
+                        Document::replace
+                    };
+                    self.show(both, way);
+                }
+                Outcome::Failed { request, words } => {
+                    self.refuse(&words, !matches!(request, Request::BuiltIn));
+                }
+                Outcome::Chosen(paths) => self.open(paths),
+                Outcome::NoDialog => self.panels.file.no_dialog = true,
+            }
+        }
+    }
+
+    /// Shows a volume in one of the document's ways, or says why not.
+    fn show(
+        &mut self,
+        volume: Arc<Volume>,
+        way: fn(&mut Document, Arc<Volume>) -> Result<(), ProjectError>,
+    ) {
+        let name = |path: &PathBuf| path.display().to_string();
+        let names = volume.sources.iter().map(name).collect::<Vec<_>>();
+        match way(&mut self.document, volume) {
+            Ok(()) => {
+                self.loader.forget_older();
+                self.panels.file.path.clear();
+                self.exporter.dismiss();
+                if let Some(volume) = self.document.volume() {
+                    self.recent.add(&volume.sources);
+                }
+            }
+            Err(error) => self.refuse(&format!("{}: {error}", names.join(", ")), true),
+        }
+    }
+
+    /// Says why something was not opened. Where that would leave the window without anything, the built-in flame
+    /// is shown, unless that is what failed.
+    fn refuse(&mut self, words: &str, built_in_may_help: bool) {
+        let empty = self.document.volume().is_none() && self.loader.loading().is_none();
+        let mut end = "";
+        if empty && built_in_may_help {
+            self.fall_back();
+            end = ". The built-in flame is shown instead";
+        }
+        self.notice = Some(format!("{words}{end}"));
+    }
+
+    /// Loads the built-in flame in place of what the project names.
+    fn fall_back(&mut self) {
+        // The settings were made for files that are not shown.
+        self.document.project.volume = VolumeSettings::default();
+        self.document.project.camera = CameraSettings::default();
+        self.loader.begin(Request::BuiltIn);
+    }
+}
