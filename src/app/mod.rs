@@ -224,7 +224,13 @@ impl eframe::App for App {
         let canvas = ui.available_rect_before_wrap();
         let view = self.view();
         let camera = self.document.last_job().map(|job| job.camera);
-        let shown = self.canvas.show(ui, &self.picture, &view, camera);
+        let shown = self.canvas.show(
+            ui,
+            &self.picture,
+            &view,
+            camera,
+            !self.panels.export.is_open(),
+        );
         self.canvas_size = Some(shown.size);
         panels::overlay(ui, self, canvas, &mut commands);
         let size = self.document.fixed_size.unwrap_or(shown.size);

@@ -279,3 +279,19 @@ fn a_hand_on_the_picture_leaves_the_field_that_was_typed_into() {
     assert_ne!(camera(&harness), dragged, "a key for the camera");
     assert_eq!(radius(&harness), before);
 }
+
+#[test]
+fn keys_are_not_for_the_picture_while_an_export_is_asked_for() {
+    let mut harness = window(Project::default());
+    let before = camera(&harness);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    harness.run_steps(3);
+    harness.key_press(Key::Num3);
+    harness.run_steps(3);
+    assert_eq!(camera(&harness), before);
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    harness.key_press(Key::Num3);
+    harness.run_steps(3);
+    assert_ne!(camera(&harness), before);
+}

@@ -75,13 +75,14 @@ impl Canvas {
     }
 
     /// Draws the picture over all that is left of `ui`, and takes what pointer and keys do to it and to the camera that
-    /// the next picture is asked for with.
+    /// the next picture is asked for with. Keys only count if they are meant for the picture.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         picture: &Picture,
         view: &View,
         camera: Option<Camera>,
+        keys: bool,
     ) -> Shown {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Picture"));
@@ -100,6 +101,7 @@ impl Canvas {
             origin: rect.min,
             pixels_per_point: ui.pixels_per_point(),
             sizes,
+            keys,
         };
         // A hand on the picture has left the field that it was typing into.
         if response.is_pointer_button_down_on() {

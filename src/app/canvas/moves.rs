@@ -54,6 +54,8 @@ pub(super) struct Space {
     pub(super) origin: Pos2,
     pub(super) pixels_per_point: f32,
     pub(super) sizes: Sizes,
+    /// Whether keys are meant for the picture.
+    pub(super) keys: bool,
 }
 
 impl Space {
@@ -88,7 +90,12 @@ impl Moves {
         }
         let about = hovered.map_or(space.middle(), |at| space.place(at));
         let mut frame_all = false;
-        let keys = keys(&response.ctx).into_iter().map(|key| (key, about));
+        let pressed_keys = if space.keys {
+            keys(&response.ctx)
+        } else {
+            Vec::new()
+        };
+        let keys = pressed_keys.into_iter().map(|key| (key, about));
         let double = response.double_clicked().then_some((Action::Fit, about));
         let pressed = pressed.iter().map(|&button| (button, space.middle()));
         for (action, about) in keys.chain(double).chain(pressed) {

@@ -40,6 +40,11 @@ impl ExportPanel {
             .name_after(document.volume().map_or(&[], |volume| &volume.sources));
     }
 
+    /// Whether the window is open.
+    pub(in crate::app) fn is_open(&self) -> bool {
+        self.is_open
+    }
+
     /// Closes the window, if it is open. True if it was.
     pub(in crate::app) fn close(&mut self) -> bool {
         std::mem::take(&mut self.is_open)
