@@ -198,6 +198,8 @@ impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         self.receive();
         self.exporter.poll();
+        // A hidden window can be closed as well.
+        self.guard_the_export(ctx);
         self.drain();
         self.retitle(ctx);
         // A hidden window draws nothing, yet what was loaded begins to render.
@@ -209,7 +211,6 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
-        self.guard_the_export(&ctx);
         self.take_drops(&ctx);
         let mut commands = self.take_keys(&ctx);
 
