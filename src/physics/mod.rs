@@ -1,4 +1,4 @@
-//! The laws of fire: how a hot body glows, how soot absorbs and scatters.
+//! The laws of fire: how a hot body glows, how soot absorbs and scatters, which lines and bands hot gas has.
 //!
 //! Every law is a plain function of f64 in SI units; wavelengths are vacuum wavelengths in nanometres where a name says
 //! `_nm`. No grids, no pictures, no state. Each file opens with its formula, the symbols with their units, the range of
@@ -7,8 +7,11 @@
 //! Physics is infallible: what a number must satisfy is checked where it enters the program, and stated here as a
 //! precondition. Inside the stated domain every function returns a finite number.
 
+pub mod bands;
 pub mod blackbody;
 pub mod constants;
+pub mod growth;
+pub mod lines;
 pub mod soot;
 pub mod soot_index;
 
