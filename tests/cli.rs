@@ -263,10 +263,7 @@ fn the_scene_of_the_standard_plume_is_what_its_page_says() -> Result<(), SceneFi
     let settings = project.settings(project.render.size).unwrap();
     assert_eq!((settings.size, settings.samples_per_pixel), ([512, 512], 1));
     // 8 m⁻¹ at 550 nm where the soot peaks, falling with the power 1.39.
-    let law = sootlight::physics::soot::SootLaw {
-        model: project.soot.model,
-        fuel_index: project.fuel.name.soot_index(),
-    };
+    let law = project.fuel.name.soot_law(project.soot.model);
     let absorption = |nm| 9.4797e-7 * project.soot.amount * law.absorption_per_volume_fraction(nm);
     assert!(
         (absorption(550.0) / 8.0 - 1.0).abs() < 1e-5,

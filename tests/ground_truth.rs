@@ -4,12 +4,14 @@ use glam::{DAffine3, DVec3, IVec3};
 use sootlight::math::Ray;
 use sootlight::physics::blackbody;
 use sootlight::render::march::Marcher;
-use sootlight::render::{Cancel, Plan, Settings, render_still};
+use sootlight::render::{Cancel, Effects, Plan, Settings, Switch, render_still};
 use sootlight::scene::{Camera, Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
 use sootlight::volume::{Border, Grid, Volume};
 
 use super::common;
+
+mod glow;
 
 /// Edge of the test cubes, m.
 const EDGE_M: f64 = 0.5;
@@ -57,6 +59,9 @@ fn settings(size: u32, step_voxels: f64, set: WavelengthSet) -> Settings {
         step_voxels,
         wavelengths: set,
         samples_per_pixel: 1,
+        effects: Effects {
+            chemiluminescence: Switch::Auto,
+        },
     }
 }
 

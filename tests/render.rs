@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use sootlight::render::pass::{self, Audience};
-use sootlight::render::{Cancel, Film, Plan, Settings, SettingsError, render_pass, render_still};
+use sootlight::render::{
+    Cancel, Effects, Film, Plan, Settings, SettingsError, Switch, render_pass, render_still,
+};
 use sootlight::scene::WavelengthSet;
 
 use super::common;
@@ -14,6 +16,9 @@ const SETTINGS: Settings = Settings {
     step_voxels: 1.0,
     wavelengths: WavelengthSet::Fitted(6),
     samples_per_pixel: 2,
+    effects: Effects {
+        chemiluminescence: Switch::Auto,
+    },
 };
 
 fn pool(threads: usize) -> rayon::ThreadPool {
@@ -68,6 +73,9 @@ fn a_coarse_pass_is_the_picture_in_small() {
     let settings = Settings {
         size: [160, 200],
         samples_per_pixel: 1,
+        effects: Effects {
+            chemiluminescence: Switch::Auto,
+        },
         ..SETTINGS
     };
     let plan = Plan::new(&scene, &settings);

@@ -150,12 +150,12 @@ fn the_built_in_flame_is_shown_and_can_be_seen() {
         .filter(|pixel| baked.apply(pixel.xyz)[0] > 0.5)
         .count();
     assert!(lit > 100, "only {lit} pixels are lit");
-    harness.get_by_label_contains("built-in flame");
+    harness.get_by_label_contains("built-in torch");
 }
 
 #[test]
 fn soot_radius_and_its_hold_change_the_job() {
-    let mut harness = window(Project::default());
+    let mut harness = window_of(Project::default(), [480.0, 480.0]);
     let (job, view) = (
         harness.state().job().cloned().expect("a job"),
         harness.state().view(),

@@ -110,12 +110,26 @@ impl Document {
     /// # Errors
     /// [`ProjectError`]: there is nothing to render in it. Everything stays as it was.
     pub fn replace(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
+        self.replace_and(volume, |_| {})
+    }
+
+    /// [`Document::replace`], with more changes in the same step.
+    ///
+    /// # Errors
+    /// As [`Document::replace`].
+    pub fn replace_and(
+        &mut self,
+        volume: Arc<Volume>,
+        change: impl FnOnce(&mut Project),
+    ) -> Result<(), ProjectError> {
         let mut project = self.project.clone();
         project.volume = VolumeSettings {
             path: volume.sources.clone(),
+            built_in: volume.built_in.unwrap_or_default(),
             ..VolumeSettings::default()
         };
         project.camera = CameraSettings::default();
+        change(&mut project);
         project.job(&volume)?;
         let before = self.step();
         self.project = project;
@@ -179,7 +193,7 @@ impl Document {
             .volume()
             .map_or(&self.project.volume.path, |v| &v.sources);
         if sources.is_empty() {
-            return "built-in flame".to_owned();
+            return format!("built-in {}", self.project.volume.built_in.name());
         }
         let name = |path: &PathBuf| {
             let name = path.file_name().unwrap_or(path.as_os_str());

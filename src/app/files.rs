@@ -9,7 +9,8 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-use crate::volume::{self, Limits, Volume, VolumeError, Watch};
+use crate::project::Preset;
+use crate::volume::{self, BuiltIn, Limits, Volume, VolumeError, Watch};
 
 /// A dialog that closes sooner was never seen by anybody.
 const TOO_QUICK_FOR_A_PERSON: Duration = Duration::from_millis(400);
@@ -19,12 +20,14 @@ const TOGETHER: f32 = 0.8;
 /// What to open.
 #[derive(Debug, Clone)]
 pub(super) enum Request {
-    /// The flame that needs no file.
-    BuiltIn,
+    /// A flame that needs no file: settings stay as they are.
+    BuiltIn(BuiltIn),
     /// What the project names: settings stay as they are.
     Project(Vec<PathBuf>),
-    /// These files as one volume, instead of what is open; the built-in flame if there are none.
+    /// These files as one volume, instead of what is open.
     Files(Vec<PathBuf>),
+    /// A flame that needs no file, instead of what is open, burning as in a preset if one was chosen.
+    OtherBuiltIn(BuiltIn, Option<&'static Preset>),
     /// A file that may bring the missing field of the open volume, or else replaces it.
     Partner(Arc<Volume>, PathBuf),
 }
@@ -36,6 +39,8 @@ pub(super) enum Outcome {
     Shown(Arc<Volume>),
     /// A volume that takes the place of the open one.
     Replaced(Arc<Volume>),
+    /// One that does so and burns as in a preset.
+    Burning(Arc<Volume>, &'static Preset),
     /// The open volume with a field that it lacked.
     Completed {
         /// What was open when this was asked for.
@@ -60,7 +65,7 @@ impl Outcome {
     /// The volume that it brought.
     fn volume(&self) -> Option<&Arc<Volume>> {
         match self {
-            Self::Shown(volume) | Self::Replaced(volume) => Some(volume),
+            Self::Shown(volume) | Self::Replaced(volume) | Self::Burning(volume, _) => Some(volume),
             Self::Completed { both, .. } => Some(both),
             Self::Failed { .. } | Self::Chosen(_) | Self::NoDialog => None,
         }
@@ -241,8 +246,9 @@ impl Request {
             paths.iter().map(name).collect::<Vec<_>>().join(", ")
         };
         match self {
-            Self::BuiltIn => "the built-in flame".to_owned(),
-            Self::Files(paths) if paths.is_empty() => "the built-in flame".to_owned(),
+            Self::BuiltIn(flame) | Self::OtherBuiltIn(flame, _) => {
+                format!("the built-in {}", flame.name())
+            }
             Self::Project(paths) | Self::Files(paths) => names(paths),
             Self::Partner(_, path) => path.display().to_string(),
         }
@@ -253,13 +259,16 @@ fn load(request: Request, watch: &Watch) -> Outcome {
     let limits = Limits::default();
     let open = |paths| volume::open_watched(paths, &limits, watch);
     let outcome = match &request {
-        Request::BuiltIn => {
-            volume::procedural::torch_watched(watch).map(|v| Outcome::Shown(v.into()))
-        }
+        Request::BuiltIn(flame) => flame
+            .volume_watched(watch)
+            .map(|v| Outcome::Shown(v.into())),
+        Request::OtherBuiltIn(flame, None) => flame
+            .volume_watched(watch)
+            .map(|v| Outcome::Replaced(v.into())),
+        Request::OtherBuiltIn(flame, Some(preset)) => flame
+            .volume_watched(watch)
+            .map(|v| Outcome::Burning(v.into(), preset)),
         Request::Project(paths) => open(paths).map(|v| Outcome::Shown(v.into())),
-        Request::Files(paths) if paths.is_empty() => {
-            volume::procedural::torch_watched(watch).map(|v| Outcome::Replaced(v.into()))
-        }
         Request::Files(paths) => open(paths).map(|v| Outcome::Replaced(v.into())),
         Request::Partner(open, path) => open_partner(open, path, &limits, watch),
     };

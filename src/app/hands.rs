@@ -30,7 +30,8 @@ impl App {
             match command {
                 Command::Ask => self.loader.ask(),
                 Command::Open(paths) => self.open(paths),
-                Command::BuiltIn => self.loader.begin(Request::Files(Vec::new())),
+                Command::BuiltIn(flame) => self.loader.begin(Request::OtherBuiltIn(flame, None)),
+                Command::Preset(preset) => self.take(preset),
                 Command::CancelLoading => self.cancel_loading(),
                 Command::Undo => self.document.undo(),
                 Command::Redo => self.document.redo(),

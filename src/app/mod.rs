@@ -95,7 +95,7 @@ impl App {
         let load_wake = ctx.clone();
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
         loader.begin(match project.volume.path.as_slice() {
-            [] => Request::BuiltIn,
+            [] => Request::BuiltIn(project.volume.built_in),
             paths => Request::Project(paths.to_vec()),
         });
         Ok(Self {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::files::{Outcome, Request};
 use super::{App, Document};
-use crate::project::{CameraSettings, ProjectError, VolumeSettings};
-use crate::volume::Volume;
+use crate::project::{CameraSettings, Preset, ProjectError, VolumeSettings};
+use crate::volume::{BuiltIn, Volume};
 
 impl App {
     /// Opens files as if they had been dropped on the window.
@@ -31,12 +31,28 @@ impl App {
         }
     }
 
+    /// Lets the fire burn as in a preset: a file's fire as it is, one of the program's own in the flame that shows the
+    /// preset best.
+    pub(super) fn take(&mut self, preset: &'static Preset) {
+        let open = self.document.volume().and_then(|volume| volume.built_in);
+        let best = preset.project().volume.built_in;
+        if open.is_some_and(|open| open != best) {
+            self.loader.begin(Request::OtherBuiltIn(best, Some(preset)));
+        } else {
+            self.document
+                .change(|document| preset.apply(&mut document.project));
+        }
+    }
+
     /// Takes in what the loader read.
     pub(super) fn receive(&mut self) {
         while let Some(outcome) = self.loader.poll() {
             match outcome {
                 Outcome::Shown(volume) => self.show(volume, Document::open),
                 Outcome::Replaced(volume) => self.show(volume, Document::replace),
+                Outcome::Burning(volume, preset) => self.show(volume, |document, volume| {
+                    document.replace_and(volume, |project| preset.apply(project))
+                }),
                 Outcome::Completed { open, both } => {
                     let now = self.document.volume();
                     let same = now.is_some_and(|now| Arc::ptr_eq(now, &open));
@@ -49,7 +65,7 @@ impl App {
                     self.show(both, way);
                 }
                 Outcome::Failed { request, words } => {
-                    self.refuse(&words, !matches!(request, Request::BuiltIn));
+                    self.refuse(&words, !matches!(request, Request::BuiltIn(_)));
                 }
                 Outcome::Chosen(paths) => self.open(paths),
                 Outcome::NoDialog => self.panels.file.no_dialog = true,
@@ -61,7 +77,7 @@ impl App {
     fn show(
         &mut self,
         volume: Arc<Volume>,
-        way: fn(&mut Document, Arc<Volume>) -> Result<(), ProjectError>,
+        way: impl FnOnce(&mut Document, Arc<Volume>) -> Result<(), ProjectError>,
     ) {
         let name = |path: &PathBuf| path.display().to_string();
         let names = volume.sources.iter().map(name).collect::<Vec<_>>();
@@ -95,6 +111,6 @@ impl App {
         // The settings were made for files that are not shown.
         self.document.project.volume = VolumeSettings::default();
         self.document.project.camera = CameraSettings::default();
-        self.loader.begin(Request::BuiltIn);
+        self.loader.begin(Request::BuiltIn(BuiltIn::default()));
     }
 }

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{Args as ClapArgs, Parser, Subcommand};
 
-use crate::project::Quality;
 use crate::project::set::KEYS;
+use crate::project::{PRESETS, Quality};
 
 /// Fire as physics shows it.
 ///
@@ -43,6 +43,9 @@ pub(super) struct ProjectArgs {
     /// A scene file to start from.
     #[arg(long, value_name = "SCENE.toml")]
     pub(super) scene: Option<PathBuf>,
+    /// One of the program's own scenes to start from.
+    #[arg(long, value_name = "NAME", conflicts_with = "scene", value_parser = PossibleValuesParser::new(PRESETS.iter().map(|preset| preset.name)))]
+    pub(super) preset: Option<String>,
     /// Set a key of the scene file, such as soot.amount=2; may be repeated. --help lists the keys.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,

@@ -6,8 +6,8 @@ use super::args::{Args, ProjectArgs, RenderArgs, Sub};
 use super::error::CliError;
 use crate::export::png::Bits;
 use crate::export::{Format, is_same_file};
-use crate::project::Project;
 use crate::project::set::did_you_mean;
+use crate::project::{Preset, Project};
 
 /// A thing to do.
 #[derive(Debug)]
@@ -70,11 +70,13 @@ impl Render {
     }
 }
 
-/// Scene file, then flags, then `--set` in its order; the later wins.
+/// Scene file or preset, then flags, then `--set` in its order; the later wins.
 fn project(args: &ProjectArgs, flags: impl FnOnce(&mut Project)) -> Result<Project, CliError> {
-    let mut project = match &args.scene {
-        Some(path) => Project::read(path).map_err(CliError::scene)?,
-        None => Project::default(),
+    let preset = args.preset.as_deref().and_then(Preset::named);
+    let mut project = match (&args.scene, preset) {
+        (Some(path), _) => Project::read(path).map_err(CliError::scene)?,
+        (None, Some(preset)) => preset.project(),
+        (None, None) => Project::default(),
     };
     flags(&mut project);
     if !args.files.is_empty() {

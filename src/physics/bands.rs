@@ -191,8 +191,14 @@ mod tests {
             let matching = |(name, _): &&(&str, &[Band])| {
                 species == *name || species.starts_with(&format!("{name} "))
             };
-            let bands = ALL.iter().find(matching).map_or(&[][..], |(_, bands)| *bands);
-            let place = row.text("head_or_centre_nm").replace(" broad", "").replace('~', "");
+            let bands = ALL
+                .iter()
+                .find(matching)
+                .map_or(&[][..], |(_, bands)| *bands);
+            let place = row
+                .text("head_or_centre_nm")
+                .replace(" broad", "")
+                .replace('~', "");
             let numbers: Vec<f64> = place
                 .split(['/', '-'])
                 .map(|number| number.parse().unwrap_or_else(|_| panic!("{place}")))
@@ -203,7 +209,10 @@ mod tests {
                 .filter(|band| (first - 0.1..=last + 0.1).contains(&band.at_nm));
             let area: f64 = here.map(|band| band.area).sum();
             let expected = row.number("rel_area");
-            assert!((area / expected - 1.0).abs() < 1e-9, "{species} {place}: {area}");
+            assert!(
+                (area / expected - 1.0).abs() < 1e-9,
+                "{species} {place}: {area}"
+            );
             compared += 1;
         }
         assert!(compared >= 18, "only {compared} rows");
@@ -231,7 +240,10 @@ mod tests {
                 let ratio = height(half) / height(band.at_nm);
                 assert!((ratio - 0.5).abs() < 1e-3, "{name}: {ratio}");
                 let box_height = 1.0 / band.box_width_nm();
-                assert!((box_height / height(band.at_nm) - 1.0).abs() < 1e-3, "{name}");
+                assert!(
+                    (box_height / height(band.at_nm) - 1.0).abs() < 1e-3,
+                    "{name}"
+                );
             }
         }
     }

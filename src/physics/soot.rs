@@ -46,6 +46,8 @@ pub const LARGEST_AGGREGATE_RADIUS_NM: f64 = 80.0;
 const HOTTEL_EXPONENT: f64 = 1.39;
 /// Wavelength at which Hottel and Broughton's law is tied to the index, nm.
 const HOTTEL_REFERENCE_NM: f64 = 550.0;
+/// Wavelength whose absorption grey soot has everywhere, nm: where the eye is most sensitive.
+const GREY_REFERENCE_NM: f64 = 550.0;
 
 /// How absorption depends on wavelength.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -58,11 +60,19 @@ pub enum SootModel {
     DalzellSarofim,
     /// The power law of Hottel and Broughton (1932), tied to the fuel's table at 550 nm.
     HottelBroughton,
+    /// The same for all colours, as Chang and Charalampopoulos's at 550 nm: no soot is so, but it shows Planck's law
+    /// alone.
+    Grey,
 }
 
 impl SootModel {
     /// All models, the default first.
-    pub const ALL: [Self; 3] = [Self::Chang, Self::DalzellSarofim, Self::HottelBroughton];
+    pub const ALL: [Self; 4] = [
+        Self::Chang,
+        Self::DalzellSarofim,
+        Self::HottelBroughton,
+        Self::Grey,
+    ];
 
     /// The name used in scene files.
     pub const fn name(self) -> &'static str {
@@ -70,6 +80,7 @@ impl SootModel {
             Self::Chang => "chang",
             Self::DalzellSarofim => "dalzell-sarofim",
             Self::HottelBroughton => "hottel-broughton",
+            Self::Grey => "grey",
         }
     }
 }
@@ -134,7 +145,8 @@ fn size_parameter(lambda_nm: f64, radius_m: f64) -> f64 {
 pub struct SootLaw {
     /// How absorption depends on wavelength.
     pub model: SootModel,
-    /// Whose table Dalzell and Sarofim's index comes from; the model [`SootModel::Chang`] does not look at it.
+    /// Whose table Dalzell and Sarofim's index comes from; the models [`SootModel::Chang`] and
+    /// [`SootModel::Grey`] do not look at it.
     pub fuel_index: SootIndex,
 }
 
@@ -143,7 +155,7 @@ impl SootLaw {
     /// laws are equal.
     pub fn new(model: SootModel, fuel_index: SootIndex) -> Self {
         let fuel_index = match model {
-            SootModel::Chang => SootIndex::default(),
+            SootModel::Chang | SootModel::Grey => SootIndex::default(),
             SootModel::DalzellSarofim | SootModel::HottelBroughton => fuel_index,
         };
         Self { model, fuel_index }
@@ -157,6 +169,7 @@ impl SootLaw {
             SootModel::HottelBroughton => {
                 soot_index::dalzell_sarofim(self.fuel_index, HOTTEL_REFERENCE_NM)
             }
+            SootModel::Grey => soot_index::chang(GREY_REFERENCE_NM),
         }
     }
 
@@ -172,6 +185,7 @@ impl SootLaw {
                 absorption_coefficient(1.0, HOTTEL_REFERENCE_NM, index)
                     * (HOTTEL_REFERENCE_NM / lambda_nm).powf(HOTTEL_EXPONENT)
             }
+            SootModel::Grey => absorption_coefficient(1.0, GREY_REFERENCE_NM, index),
         }
     }
 

@@ -26,6 +26,10 @@ pub enum Control {
     SootAmount,
     /// `smoke.amount`
     SmokeAmount,
+    /// `fuel.salt_ppm`
+    SaltAmount,
+    /// `fuel.blue_glow`
+    BlueGlow,
     /// `air.humidity`
     Humidity,
     /// `air.co2_ppm`
@@ -38,22 +42,16 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
     let no_soot = flame.soot_amount <= 0.0 && flame.smoke_amount <= 0.0;
     let words = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
-            "this soot model has one soot for all fuels: choose another below"
+            "the file says how much soot there is, and this soot model has one soot for all fuels: choose another below"
         }
-        Control::Fuel
-        | Control::SootModel
-        | Control::Hold
-        | Control::Heat
-        | Control::SootRadius
-            if no_soot =>
-        {
+        Control::SootModel | Control::Hold | Control::Heat | Control::SootRadius if no_soot => {
             "there is no soot"
         }
         Control::SootModel => "the soot models agree here",
         Control::Hold => "at 21.25 nm, where the file's soot holds, both are the same",
         Control::Heat => "the temperature does not matter here",
         Control::FlameField => {
-            "no effect that is computed reads it: what glows is said by “Soot from”"
+            "only the blue glow reads it, and there is none: what glows is said by “Soot from”"
         }
         Control::Fuel => "the soot of these fuels absorbs alike under this soot model",
         Control::SootRadius => {
@@ -62,6 +60,13 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         }
         Control::SootAmount => "this volume has no soot field",
         Control::SmokeAmount => "this volume has no smoke field: choose a grid for it under Volume",
+        Control::SaltAmount => "there is no salt",
+        Control::BlueGlow if flame.fuel.row().radicals == [0.0; 3] => {
+            "this fuel has no radicals that glow"
+        }
+        Control::BlueGlow => {
+            "no field says where gas burns: choose one for “Flame from” under Volume"
+        }
         Control::Humidity => "humidity acts through refraction; nothing behind the fire shows it",
         Control::Co2 => "CO₂ acts through refraction; nothing behind the fire shows it",
     };
@@ -83,10 +88,20 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         }
         Control::Heat => no_soot,
         Control::FlameField => same(&|f| f.maps.flame = None),
-        Control::Fuel => no_soot || Fuel::ALL.into_iter().all(|fuel| same(&|f| f.fuel = fuel)),
+        Control::Fuel => {
+            // Grey soot is no fuel's; that it would differ says nothing of the others.
+            let mut sooty = Fuel::all().filter(|fuel| fuel.row().soot.is_some());
+            let follows = job.soot_follows_fuel && !no_soot;
+            !follows && sooty.all(|fuel| same(&|f| f.fuel = fuel))
+        }
         Control::SootRadius => no_soot || same(&|f| f.soot_radius_nm *= 1.5),
         Control::SootAmount => same(&|f| f.soot_amount += 1.0),
         Control::SmokeAmount => same(&|f| f.smoke_amount += 1.0),
+        Control::SaltAmount => same(&|f| f.glow.salt_ppm += 1.0),
+        Control::BlueGlow => {
+            let unburnt = flame.glow.radicals <= 0.0 && flame.maps.flame.is_none();
+            unburnt || same(&|f| f.glow.radicals += 1.0)
+        }
         Control::Humidity => same(&|f| f.air.humidity = 1.0 - f.air.humidity),
         Control::Co2 => same(&|f| f.air.co2_ppm += 100.0),
     };
@@ -110,12 +125,34 @@ mod tests {
     }
 
     #[test]
-    fn a_fuel_acts_through_models_that_look_at_it() {
-        assert!(idle(&[], Control::Fuel).unwrap().contains("soot model"));
+    fn a_fuel_acts_through_models_that_look_at_it_and_where_it_says_how_much_soot_there_is() {
+        // The built-in flame takes its soot from the fuel; numbers by hand settle how much there is.
+        assert_eq!(idle(&[], Control::Fuel), None);
+        let given = "volume.soot.scale=1";
+        assert!(
+            idle(&[given], Control::Fuel)
+                .unwrap()
+                .contains("soot model")
+        );
         for model in ["dalzell-sarofim", "hottel-broughton"] {
             let set = format!("soot.model={model}");
-            assert_eq!(idle(&[&set], Control::Fuel), None, "{model}");
+            assert_eq!(idle(&[given, &set], Control::Fuel), None, "{model}");
         }
+        assert_eq!(idle(&[given, "fuel.salt=sodium"], Control::Fuel), None);
+    }
+
+    #[test]
+    fn a_salt_and_the_blue_glow_say_what_they_lack() {
+        assert!(idle(&[], Control::SaltAmount).is_some());
+        assert_eq!(idle(&["fuel.salt=copper"], Control::SaltAmount), None);
+        assert!(idle(&[], Control::BlueGlow).unwrap().contains("Flame from"));
+        assert_eq!(idle(&["volume.flame.grid=soot"], Control::BlueGlow), None);
+        assert_eq!(
+            idle(&["effects.chemiluminescence=on"], Control::BlueGlow),
+            None
+        );
+        let grey = ["fuel.name=black-body", "volume.flame.grid=soot"];
+        assert!(idle(&grey, Control::BlueGlow).unwrap().contains("fuel"));
     }
 
     #[test]
@@ -132,7 +169,6 @@ mod tests {
     fn nothing_about_soot_acts_where_there_is_none() {
         let none = ["soot.amount=0", "smoke.amount=0"];
         for control in [
-            Control::Fuel,
             Control::SootModel,
             Control::SootRadius,
             Control::Hold,
@@ -145,7 +181,8 @@ mod tests {
         assert_eq!(idle(&[], Control::Heat), None);
         assert!(idle(&[], Control::Hold).is_some());
         assert_eq!(idle(&["soot.radius_nm=30"], Control::Hold), None);
-        assert!(idle(&["volume.flame.grid=soot"], Control::FlameField).is_some());
+        assert!(idle(&["fuel.blue_glow=0"], Control::FlameField).is_some());
+        assert_eq!(idle(&["volume.flame.grid=soot"], Control::FlameField), None);
     }
 
     #[test]

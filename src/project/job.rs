@@ -9,10 +9,12 @@ use super::fields::field_maps;
 use super::ranges;
 use super::settings::{Project, Up};
 use crate::render::develop::ViewParams;
-use crate::render::{Flaws, Settings, SettingsError};
+use crate::render::{Effects, Flaws, Settings, SettingsError, Switch};
 use crate::scene::camera::FRAMING_FOV_DEG;
-use crate::scene::{Air, Camera, Flame, FlameParams, Placement, Scene, flame};
-use crate::volume::{self, FieldMaps, Producer, UpAxis, Volume};
+use crate::scene::{Air, Camera, Flame, FlameParams, GlowParams, Placement, Salt, Scene, flame};
+use crate::volume::{
+    self, About, Assumption, FieldKind, FieldMaps, Preset, Producer, UpAxis, Volume,
+};
 
 /// A picture to be made, cheap to clone. Jobs are equal if they give the same picture, bit for bit: so the window
 /// renders only what changed, and a parameter that no computed effect looks at makes no difference.
@@ -34,6 +36,8 @@ pub struct Job {
     pub proposed: FieldMaps,
     /// Edge of a voxel that was not set by hand, m.
     pub proposed_voxel_m: f64,
+    /// Whether the amount of soot is the fuel's, because the volume does not say it.
+    pub soot_follows_fuel: bool,
 }
 
 impl PartialEq for Job {
@@ -93,6 +97,13 @@ impl Project {
         let settings = self.settings(self.render.size)?;
         let camera = self.camera(volume, &maps, &placement, settings.size);
         camera.view(settings.size)?;
+        let glow = self.glow(&maps, &mut flaws);
+        let soot_follows_fuel = self.soot_follows_fuel(volume, &preset);
+        let soot_yield = if soot_follows_fuel {
+            self.fuel.name.row().soot_yield
+        } else {
+            1.0
+        };
         let flame = FlameParams {
             maps,
             placement,
@@ -100,8 +111,10 @@ impl Project {
             soot_model: self.soot.model,
             soot_radius_nm: self.soot.radius_nm,
             soot_hold: self.soot.hold,
-            soot_amount: self.soot.amount,
+            soot_amount: self.soot.amount * soot_yield,
             smoke_amount: self.smoke.amount,
+            glow,
+            interpolation: self.render.interpolation,
             air: Air {
                 temperature_k: self.air.temperature_k,
                 humidity: self.air.humidity,
@@ -118,7 +131,45 @@ impl Project {
             producer,
             proposed,
             proposed_voxel_m,
+            soot_follows_fuel,
         })
+    }
+
+    /// What is to glow in the gas beside soot.
+    fn glow(&self, maps: &FieldMaps, flaws: &mut Flaws) -> GlowParams {
+        let radicals = match self.effects.chemiluminescence {
+            Switch::Off => 0.0,
+            // Where nothing says what burns, nothing is made up unless it is asked for.
+            Switch::Auto if maps.flame.is_none() => 0.0,
+            Switch::Auto | Switch::On => self.fuel.blue_glow,
+        };
+        if radicals > 0.0 && maps.flame.is_none() {
+            flaws.add(
+                "no flame field: the blue glow is put where the gas is hotter than 1600 K, as if it burnt there",
+            );
+        }
+        let salt_ppm = match self.effects.lines {
+            Switch::Off => 0.0,
+            Switch::Auto | Switch::On if self.fuel.salt.is_none() => 0.0,
+            Switch::Auto | Switch::On => self.fuel.salt_ppm,
+        };
+        GlowParams {
+            salt: if salt_ppm > 0.0 {
+                self.fuel.salt
+            } else {
+                Salt::default()
+            },
+            salt_ppm,
+            radicals,
+        }
+    }
+
+    /// Whether the fuel says how much soot there is: the volume does not, and nobody else did.
+    fn soot_follows_fuel(&self, volume: &Volume, preset: &Preset) -> bool {
+        let is_about_soot =
+            |assumption: &Assumption| assumption.about == About::Field(FieldKind::Soot);
+        let assumed = preset.assumptions.iter().any(is_about_soot);
+        (assumed || volume.built_in.is_some()) && self.volume.soot.is_unset()
     }
 
     /// The render section as concrete numbers, for a picture of the given size.
@@ -132,6 +183,9 @@ impl Project {
             step_voxels: self.render.step_voxels.unwrap_or(step_voxels),
             wavelengths: self.render.wavelengths.unwrap_or(wavelengths),
             samples_per_pixel: self.render.samples_per_pixel.unwrap_or(samples_per_pixel),
+            effects: Effects {
+                chemiluminescence: self.effects.chemiluminescence,
+            },
         }
         .validated()
     }
@@ -184,6 +238,8 @@ impl Project {
             ),
             ("soot.amount", self.soot.amount, ranges::AMOUNT),
             ("smoke.amount", self.smoke.amount, ranges::AMOUNT),
+            ("fuel.salt_ppm", self.fuel.salt_ppm, ranges::SALT_PPM),
+            ("fuel.blue_glow", self.fuel.blue_glow, ranges::AMOUNT),
             (
                 "air.temperature_k",
                 self.air.temperature_k,

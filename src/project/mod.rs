@@ -10,6 +10,7 @@ pub mod file;
 mod idle;
 pub mod job;
 pub mod one_or_many;
+mod presets;
 pub mod ranges;
 pub mod set;
 pub mod settings;
@@ -18,7 +19,8 @@ pub use darkness::{Darkness, Mend};
 pub use error::ProjectError;
 pub use idle::{Control, why_idle};
 pub use job::Job;
+pub use presets::{PRESETS, Preset};
 pub use settings::{
-    AirSettings, CameraSettings, FieldSettings, FuelSettings, Project, Quality, RenderSettings,
-    SmokeSettings, SootSettings, Up, ViewSettings, VolumeSettings,
+    AirSettings, CameraSettings, EffectSettings, FieldSettings, FuelSettings, Project, Quality,
+    RenderSettings, SmokeSettings, SootSettings, Up, ViewSettings, VolumeSettings,
 };

@@ -5,8 +5,10 @@ pub use crate::scene::camera::FOV_RANGE_DEG as FOV_DEG;
 
 /// `soot.radius_nm`: from single spheres of the smallest flames to aggregates thought of as spheres.
 pub const SOOT_RADIUS_NM: [f64; 2] = [1.0, 100.0];
-/// `soot.amount` and `smoke.amount`.
+/// `soot.amount`, `smoke.amount` and `fuel.blue_glow`.
 pub const AMOUNT: [f64; 2] = [0.0, 1e4];
+/// `fuel.salt_ppm`: up to a tenth of the gas.
+pub const SALT_PPM: [f64; 2] = [0.0, 1e5];
 /// `air.temperature_k`.
 pub const AIR_TEMPERATURE_K: [f64; 2] = [200.0, 400.0];
 /// `air.humidity`, from dry to saturated.

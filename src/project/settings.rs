@@ -10,8 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
-use crate::scene::{Air, Camera, Fuel, WavelengthSet};
-use crate::volume::Producer;
+use crate::render::Switch;
+use crate::scene::{Air, Camera, Fuel, Interpolation, Salt, WavelengthSet};
+use crate::volume::{BuiltIn, Producer};
 
 /// A whole scene file.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -27,6 +28,8 @@ pub struct Project {
     pub smoke: SmokeSettings,
     /// The air around.
     pub air: AirSettings,
+    /// Which effects are computed.
+    pub effects: EffectSettings,
     /// Where the eye is.
     pub camera: CameraSettings,
     /// How accurate, and how large.
@@ -42,6 +45,9 @@ pub struct VolumeSettings {
     /// One path or a list; empty for the built-in flame. In a scene file relative to that file.
     #[serde(with = "super::one_or_many", skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<PathBuf>,
+    /// Which of the program's own flames is shown where there is no path.
+    #[serde(skip_serializing_if = "is_default")]
+    pub built_in: BuiltIn,
     /// Whose conventions the fields follow; auto: recognised from the file.
     pub producer: Producer,
     /// Which axis of the file points up.
@@ -61,6 +67,10 @@ pub struct VolumeSettings {
     /// Overrides of the preset's temperature.
     #[serde(skip_serializing_if = "FieldSettings::is_unset")]
     pub temperature: FieldSettings,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// Which axis of the file points up.
@@ -106,11 +116,38 @@ impl FieldSettings {
 }
 
 /// `[fuel]`
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FuelSettings {
     /// What burns.
     pub name: Fuel,
+    /// A salt in it that colours the flame.
+    pub salt: Salt,
+    /// Mole fraction of the salt's metal in the undiluted hot gas, parts in a million, 0 to 100000.
+    pub salt_ppm: f64,
+    /// Multiplies the blue light of the reaction zone, 0 to 10000.
+    pub blue_glow: f64,
+}
+
+impl Default for FuelSettings {
+    fn default() -> Self {
+        Self {
+            name: Fuel::default(),
+            salt: Salt::default(),
+            salt_ppm: 100.0,
+            blue_glow: 1.0,
+        }
+    }
+}
+
+/// `[effects]`
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct EffectSettings {
+    /// Lines and bands of a salt's metal.
+    pub lines: Switch,
+    /// Light of radicals in the reaction zone.
+    pub chemiluminescence: Switch,
 }
 
 /// `[soot]`
@@ -223,6 +260,8 @@ pub struct RenderSettings {
     /// How many wavelengths: 4, 6, 8 (fitted to the soot), 16, 32, 64 (plain).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wavelengths: Option<WavelengthSet>,
+    /// How values between the samples of a field are formed.
+    pub interpolation: Interpolation,
     /// Rays for each pixel; 1 is the pixel's centre.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples_per_pixel: Option<u32>,
@@ -235,6 +274,7 @@ impl Default for RenderSettings {
             quality: Quality::default(),
             step_voxels: None,
             wavelengths: None,
+            interpolation: Interpolation::default(),
             samples_per_pixel: None,
         }
     }
@@ -315,6 +355,7 @@ pub(super) fn everything_set() -> Project {
     Project {
         volume: VolumeSettings {
             path: vec![PathBuf::from("a.vdb"), PathBuf::from("b \"quoted\".vdb")],
+            built_in: BuiltIn::Burner,
             producer: Producer::Physical,
             up: Up::Y,
             voxel_size_m: Some(0.1 + 0.2),
@@ -334,6 +375,7 @@ pub(super) fn everything_set() -> Project {
             quality: Quality::Final,
             step_voxels: Some(0.5),
             wavelengths: Some(WavelengthSet::Fitted(8)),
+            interpolation: Interpolation::Tricubic,
             samples_per_pixel: Some(4),
         },
         ..Project::default()

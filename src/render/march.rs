@@ -11,7 +11,8 @@
 //! ```
 //!
 //! which is exact for a constant step and of second order otherwise (Max 1995, with the sign that the report's
-//! eq. 4.1 misprints). B / n² is what is conserved along a ray, so the medium's index drops out.
+//! eq. 4.1 misprints). B / n² is what is conserved along a ray, so the medium's index drops out. What gas adds beside
+//! soot is in `glow`.
 //!
 //! # How
 //!
@@ -24,10 +25,12 @@
 use crate::math::lanes::{self, Kernel, LANES, Lanes};
 use crate::scene::Scene;
 use crate::scene::camera::{CameraError, View};
-use crate::scene::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES};
+use crate::scene::medium::Medium;
 
 use super::chord::Chord;
 use super::film::Pixel;
+use super::glow::{GlowLight, GlowTable, MAX_FEATURES, Step};
+use super::lookup::lookup;
 use super::plan::{MAX_NODES, Node, Plan};
 
 /// Width and height of a packet in rays.
@@ -65,30 +68,19 @@ impl<'a> Marcher<'a> {
     /// what they leave on the film and how many samples of the medium were taken.
     pub fn march(&self, points: &[Option<[f64; 2]>; LANES]) -> ([Pixel; LANES], u64) {
         let mut pixels = [Pixel::default(); LANES];
-        let chords: [Option<Chord>; LANES] = std::array::from_fn(|lane| {
-            points[lane]
-                .and_then(|[x, y]| Chord::new(self.medium, &self.view.ray(x, y), self.step_m))
-        });
-        if chords.iter().all(Option::is_none) {
+        let Some(light) = self.light(points) else {
             return (pixels, 0);
-        }
-        let packet = Packet::new(&chords);
-        let work = March {
-            medium: self.medium,
-            nodes: &self.plan.nodes,
-            opaque: self.plan.opaque_column_m,
-            step_m: self.step_m as f32,
-            packet,
         };
-        let light = lanes::dispatch(work);
-
         // The spectrum becomes three numbers here, in f64: the fitted weights have both signs.
-        let nodes = &self.plan.nodes;
+        let (nodes, glow) = (&self.plan.nodes, &self.plan.glow);
         for (lane, pixel) in pixels.iter_mut().enumerate() {
-            let radiance = light.radiance[..nodes.len()]
-                .iter()
-                .map(|node| f64::from(node[lane]));
-            pixel.xyz = self.plan.wavelengths.xyz_of(radiance).map(|v| v as f32);
+            let lane_of = |light: &Lanes| f64::from(light[lane]);
+            let soot = self
+                .plan
+                .wavelengths
+                .xyz_of(light.radiance[..nodes.len()].iter().map(lane_of));
+            let gas = glow.xyz_of(light.glow.iter().map(lane_of));
+            pixel.xyz = std::array::from_fn(|c| (soot[c] + gas[c]) as f32);
             let column = f64::from(light.column_m[lane]);
             let opacity = nodes
                 .iter()
@@ -96,6 +88,35 @@ impl<'a> Marcher<'a> {
             pixel.opacity = self.plan.wavelengths.opacity_of(opacity).map(|v| v as f32);
         }
         (pixels, light.samples)
+    }
+
+    /// The light along rays; `None` if they all miss.
+    fn light(&self, points: &[Option<[f64; 2]>; LANES]) -> Option<Light> {
+        let chords: [Option<Chord>; LANES] = std::array::from_fn(|lane| {
+            points[lane]
+                .and_then(|[x, y]| Chord::new(self.medium, &self.view.ray(x, y), self.step_m))
+        });
+        if chords.iter().all(Option::is_none) {
+            return None;
+        }
+        let packet = Packet::new(&chords);
+        // What does not glow must not cost.
+        Some(if self.plan.glow.is_empty() {
+            lanes::dispatch(self.work::<false>(packet))
+        } else {
+            lanes::dispatch(self.work::<true>(packet))
+        })
+    }
+
+    fn work<'b, const GAS: bool>(&'b self, packet: Packet<'b>) -> March<'b, GAS> {
+        March {
+            medium: self.medium,
+            nodes: &self.plan.nodes,
+            glow: &self.plan.glow,
+            opaque: self.plan.opaque_column_m,
+            step_m: self.step_m as f32,
+            packet,
+        }
     }
 }
 
@@ -129,10 +150,11 @@ impl<'a> Packet<'a> {
     }
 }
 
-/// The work of one packet.
-struct March<'a> {
+/// The work of one packet, with gas that glows beside soot or without.
+struct March<'a, const GAS: bool> {
     medium: &'a Medium,
     nodes: &'a [Node],
+    glow: &'a GlowTable,
     opaque: f32,
     step_m: f32,
     packet: Packet<'a>,
@@ -142,12 +164,14 @@ struct March<'a> {
 struct Light {
     /// Spectral radiance at each node, W m⁻² sr⁻¹ nm⁻¹.
     radiance: [Lanes; MAX_NODES],
+    /// Radiance of each feature of the gas, W m⁻² sr⁻¹.
+    glow: [Lanes; MAX_FEATURES],
     /// ∫ f_v ds of the medium, m.
     column_m: Lanes,
     samples: u64,
 }
 
-impl Kernel for March<'_> {
+impl<const GAS: bool> Kernel for March<'_, GAS> {
     type Output = Light;
 
     #[inline(always)]
@@ -155,9 +179,11 @@ impl Kernel for March<'_> {
         let nodes = self.nodes;
         let mut light = Light {
             radiance: [[0.0; LANES]; MAX_NODES],
+            glow: [[0.0; LANES]; MAX_FEATURES],
             column_m: [0.0; LANES],
             samples: 0,
         };
+        let mut glow = GlowLight::new();
         let mut transmittance = [[1.0_f32; LANES]; MAX_NODES];
         let mut block_radiance = [[0.0_f32; LANES]; MAX_NODES];
         let mut block_column = [0.0_f32; LANES];
@@ -170,6 +196,7 @@ impl Kernel for March<'_> {
             // Each ray takes its next sample; those that are through take an empty one.
             let mut column = [0.0_f32; LANES];
             let mut inverse_temperature = [1.0_f32; LANES];
+            let (mut flame, mut length) = ([0.0_f32; LANES], [0.0_f32; LANES]);
             let mut active = 0;
             for lane in 0..LANES {
                 if done[lane] {
@@ -185,9 +212,12 @@ impl Kernel for March<'_> {
                 let position: [f64; 3] = std::array::from_fn(|axis| {
                     self.packet.start[lane][axis] + middle * self.packet.delta[lane][axis]
                 });
-                let [soot, temperature] = lookup(self.medium, position);
+                let [soot, temperature, burning] = lookup::<GAS>(self.medium, position);
                 column[lane] = soot * (self.step_m * share);
                 inverse_temperature[lane] = 1.0 / temperature;
+                if GAS {
+                    (flame[lane], length[lane]) = (burning, self.step_m * share);
+                }
                 (step[lane], run[lane], done[lane]) =
                     advance(self.packet.runs[lane], step[lane], run[lane]);
             }
@@ -211,6 +241,15 @@ impl Kernel for March<'_> {
             for lane in 0..LANES {
                 block_column[lane] += column[lane];
             }
+            if GAS {
+                let step = Step {
+                    column,
+                    inverse_temperature,
+                    flame,
+                    length,
+                };
+                glow.step(self.glow, &step);
+            }
 
             since_flush += 1;
             if since_flush == FLUSH {
@@ -228,6 +267,9 @@ impl Kernel for March<'_> {
                             lanes::exp(-node.absorption * light.column_m[lane]);
                     }
                 }
+                if GAS {
+                    glow.flush(self.glow, &light.column_m);
+                }
             }
         }
         for lane in 0..LANES {
@@ -235,6 +277,10 @@ impl Kernel for March<'_> {
             for (total, block) in light.radiance.iter_mut().zip(&block_radiance) {
                 total[lane] += block[lane];
             }
+        }
+        if GAS {
+            glow.flush(self.glow, &light.column_m);
+            light.glow = glow.total;
         }
         light
     }
@@ -250,43 +296,4 @@ fn advance(runs: &[[u32; 2]], step: u32, run: usize) -> (u32, usize, bool) {
     } else {
         (step, run, true)
     }
-}
-
-/// Soot volume fraction and temperature at a lattice position, trilinear; clear air where no brick is.
-///
-/// The position comes in f64: where the temperature changes by hundreds of kelvin in a voxel, the last bit of an
-/// f32 coordinate would show in Planck's exponential.
-#[inline(always)]
-fn lookup(medium: &Medium, position: [f64; 3]) -> [f32; 2] {
-    const CLEAR: [f32; 2] = [0.0, 300.0];
-    let voxel: [i32; 3] = position.map(|p| p as i32);
-    let brick: [u32; 3] = voxel.map(|v| (v as u32) / BRICK as u32);
-    if brick[0] >= medium.bricks.x || brick[1] >= medium.bricks.y || brick[2] >= medium.bricks.z {
-        return CLEAR;
-    }
-    let slot = medium.table[medium.brick_index(brick.into())];
-    if slot == NO_BRICK {
-        return CLEAR;
-    }
-    let local: [usize; 3] = voxel.map(|v| v as usize % BRICK);
-    let fraction: [f32; 3] =
-        std::array::from_fn(|axis| (position[axis] - f64::from(voxel[axis])) as f32);
-    let first =
-        slot as usize * BRICK_SAMPLES + (local[2] * SAMPLES + local[1]) * SAMPLES + local[0];
-    // Two neighbours in x, both fields: four floats that lie together.
-    let pair = |dy: usize, dz: usize| -> [f32; 4] {
-        let at = first + (dz * SAMPLES + dy) * SAMPLES;
-        let [a, b] = [medium.samples[at], medium.samples[at + 1]];
-        [a[0], a[1], b[0], b[1]]
-    };
-    let between = |a: [f32; 4], b: [f32; 4], f: f32| -> [f32; 4] {
-        std::array::from_fn(|i| a[i] + f * (b[i] - a[i]))
-    };
-    let near = between(pair(0, 0), pair(1, 0), fraction[1]);
-    let far = between(pair(0, 1), pair(1, 1), fraction[1]);
-    let [soot_low, hot_low, soot_high, hot_high] = between(near, far, fraction[2]);
-    [
-        soot_low + fraction[0] * (soot_high - soot_low),
-        hot_low + fraction[0] * (hot_high - hot_low),
-    ]
 }

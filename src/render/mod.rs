@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::scene::{Scene, WavelengthSet};
@@ -17,6 +18,9 @@ use crate::scene::{Scene, WavelengthSet};
 mod chord;
 pub mod develop;
 pub mod film;
+pub mod glow;
+mod growth;
+mod lookup;
 pub mod march;
 pub mod pass;
 pub mod plan;
@@ -36,6 +40,28 @@ pub struct Settings {
     pub wavelengths: WavelengthSet,
     /// Rays for each pixel; 1 is the pixel's centre.
     pub samples_per_pixel: u32,
+    /// Which effects are computed.
+    pub effects: Effects,
+}
+
+/// Which effects are computed; what is not in the scene costs nothing either way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Effects {
+    /// Light of radicals in the reaction zone. Auto: unless soot outshines it.
+    pub chemiluminescence: Switch,
+}
+
+/// Whether an effect is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Switch {
+    /// Where it can be seen.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never.
+    Off,
 }
 
 /// Why settings cannot be rendered with.

@@ -159,6 +159,7 @@ fn render_tile(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::{Effects, Switch};
     use crate::scene::WavelengthSet;
 
     const SETTINGS: Settings = Settings {
@@ -166,6 +167,9 @@ mod tests {
         step_voxels: 0.5,
         wavelengths: WavelengthSet::Fitted(4),
         samples_per_pixel: 3,
+        effects: Effects {
+            chemiluminescence: Switch::Auto,
+        },
     };
 
     #[test]

@@ -3,9 +3,12 @@
 //! The laws are f64; the tables are f32 with the units chosen so that nothing under- or overflows (wavelengths
 //! in nm, Planck's constants per nm).
 
-use super::{Flaws, Settings};
+use super::glow::GlowTable;
+use super::{Flaws, Settings, Switch};
+use crate::colour::cie;
 use crate::physics::blackbody;
 use crate::scene::Scene;
+use crate::scene::glow::Source;
 use crate::spectral::Wavelengths;
 
 /// One wavelength of the march.
@@ -26,6 +29,8 @@ pub struct Plan {
     pub wavelengths: Wavelengths,
     /// The march's view of the same nodes.
     pub nodes: Vec<Node>,
+    /// What glows in the gas beside soot.
+    pub glow: GlowTable,
     /// Picture size in pixels.
     pub size: [u32; 2],
     /// What these settings cannot show faithfully of this scene.
@@ -49,7 +54,15 @@ impl Plan {
     /// Bakes the tables for the settings' own wavelengths.
     pub fn new(scene: &Scene, settings: &Settings) -> Self {
         let wavelengths = settings.wavelengths.wavelengths(scene.flame.soot());
-        let mut plan = Self::with_wavelengths(scene, settings.size, wavelengths);
+        let with_radicals = match settings.effects.chemiluminescence {
+            Switch::Auto => !radicals_are_outshone(scene),
+            Switch::On => true,
+            Switch::Off => false,
+        };
+        let mut plan = Self {
+            glow: GlowTable::new(&scene.flame, with_radicals),
+            ..Self::with_wavelengths(scene, settings.size, wavelengths)
+        };
         let medium = scene.flame.medium();
         let densest = plan
             .nodes
@@ -68,7 +81,8 @@ impl Plan {
         plan
     }
 
-    /// Bakes the tables for given wavelengths, at most [`MAX_NODES`] of them: those of a measurement, say.
+    /// Bakes the tables for given wavelengths, at most [`MAX_NODES`] of them: those of a measurement, say. All that
+    /// glows in the gas is in it.
     pub fn with_wavelengths(scene: &Scene, size: [u32; 2], wavelengths: Wavelengths) -> Self {
         debug_assert!(wavelengths.len() <= MAX_NODES);
         let nodes: Vec<Node> = wavelengths
@@ -80,17 +94,51 @@ impl Plan {
                 planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
             })
             .collect();
+        let glow = GlowTable::new(&scene.flame, true);
         let clearest = nodes
             .iter()
             .map(|node| node.absorption)
-            .fold(f32::INFINITY, f32::min);
-        let opaque_column_m = (OPAQUE_DEPTH / f64::from(clearest)) as f32;
+            .chain(glow.absorptions())
+            .reduce(f32::min);
+        // Where nothing is carried, nothing can be hidden.
+        let opaque_column_m =
+            clearest.map_or(f64::INFINITY, |clearest| OPAQUE_DEPTH / f64::from(clearest)) as f32;
         Self {
             wavelengths,
             nodes,
+            glow,
             size,
             flaws: Flaws::default(),
             opaque_column_m,
         }
     }
+}
+
+/// Luminance of the radicals beside that of soot, where both shine most, below which they are left out: at the exposure
+/// that shows the soot's brightest parts, 4 × display white, so little is a step of 8 bits.
+const OUTSHONE: f64 = 3e-5;
+
+/// Whether soot outshines the light of radicals wherever both are brightest.
+fn radicals_are_outshone(scene: &Scene) -> bool {
+    let (flame, medium) = (&scene.flame, scene.flame.medium());
+    let [soot, kelvin] = medium.brightest().map(f64::from);
+    let soot_y: f64 = (380..=780)
+        .step_by(10)
+        .map(f64::from)
+        .map(|nm| {
+            let emission =
+                flame.absorption_per_sample(nm) * soot * blackbody::spectral_radiance(nm, kelvin);
+            10.0 * emission * cie::colour_matching(nm)[1]
+        })
+        .sum();
+    let radicals_y: f64 = flame
+        .glow()
+        .features()
+        .iter()
+        .map(|feature| match feature.source {
+            Source::Radical(emission) => emission * feature.colour[1],
+            Source::Thermal { .. } => 0.0,
+        })
+        .sum();
+    radicals_y * f64::from(medium.peak_flame()) < OUTSHONE * soot_y
 }

@@ -6,8 +6,10 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::air::Air;
 use super::fuel::Fuel;
+use super::glow::{Glow, GlowParams};
+use super::interpolation::Interpolation;
 use super::medium::Medium;
-use super::packing::{self, Fields, PackingError};
+use super::packing::{self, Burning, Fields, GasFields, PackingError};
 use crate::math::Aabb;
 use crate::physics::soot::{self, Hold, SootLaw, SootModel};
 use crate::volume::{FieldMap, FieldMaps, Limits, UpAxis, Volume};
@@ -52,8 +54,12 @@ pub struct FlameParams {
     pub soot_amount: f64,
     /// Multiplies the smoke field, at least 0.
     pub smoke_amount: f64,
+    /// What glows in the gas beside soot.
+    pub glow: GlowParams,
     /// The air around.
     pub air: Air,
+    /// How values between the samples of a field are formed.
+    pub interpolation: Interpolation,
 }
 
 impl FlameParams {
@@ -66,20 +72,38 @@ impl FlameParams {
     /// What the parameters come to.
     fn effect(&self) -> Effect {
         let (amounts, common) = self.packed_amounts();
+        let glow = Glow::new(&self.glow, self.fuel, &self.air);
+        let gas = self.gas_fields(&glow);
         Effect {
             key: PackingKey {
-                // No law reads the reaction's progress.
                 maps: FieldMaps {
-                    flame: None,
+                    // Nothing but burning gas that glows reads the reaction's progress.
+                    flame: self.maps.flame.clone().filter(|_| gas.burning.is_some()),
                     ..self.maps.clone()
                 },
                 placement: self.placement,
                 amounts,
                 ambient_k: self.air.temperature_k,
+                gas,
+                interpolation: self.interpolation,
             },
-            soot: SootLaw::new(self.soot_model, self.fuel.soot_index()),
+            soot: self.fuel.soot_law(self.soot_model),
             volume_fraction_factor: common
                 * soot::volume_fraction_factor(self.soot_hold, self.soot_radius_nm),
+            glow,
+        }
+    }
+
+    /// What of the gas is packed for a glow.
+    fn gas_fields(&self, glow: &Glow) -> GasFields {
+        let burning = if self.maps.flame.is_some() {
+            Burning::Field
+        } else {
+            Burning::Temperature
+        };
+        GasFields {
+            burning: glow.has_radicals().then_some(burning),
+            hot: glow.has_metal(),
         }
     }
 
@@ -88,14 +112,7 @@ impl FlameParams {
     /// # Errors
     /// They lie too far apart or fill too much of the air.
     pub fn check(&self, volume: &Volume) -> Result<(), PackingError> {
-        let (amounts, _) = self.packed_amounts();
-        Fields {
-            volume,
-            maps: &self.maps,
-            amounts,
-            ambient_k: self.air.temperature_k,
-        }
-        .check(&Limits::default())
+        self.effect().key.fields(volume).check(&Limits::default())
     }
 
     /// Weights of soot and smoke in the packed medium, and the factor that is left to the laws. With soot alone its
@@ -121,6 +138,22 @@ struct PackingKey {
     /// Weights of soot and smoke.
     amounts: [f64; 2],
     ambient_k: f64,
+    gas: GasFields,
+    interpolation: Interpolation,
+}
+
+impl PackingKey {
+    /// The fields of a volume that this key tells to pack.
+    fn fields<'a>(&'a self, volume: &'a Volume) -> Fields<'a> {
+        Fields {
+            volume,
+            maps: &self.maps,
+            amounts: self.amounts,
+            ambient_k: self.ambient_k,
+            gas: self.gas,
+            interpolation: self.interpolation,
+        }
+    }
 }
 
 /// Parameters as the laws see them: what must be packed, and what multiplies it.
@@ -130,6 +163,7 @@ struct Effect {
     soot: SootLaw,
     /// Multiplies the medium's volume fraction: amount and radius.
     volume_fraction_factor: f64,
+    glow: Glow,
 }
 
 /// A volume made into a medium with optics. Cheap to clone.
@@ -151,12 +185,7 @@ impl Flame {
             .filter(|before| Arc::ptr_eq(&before.volume, volume) && before.effect.key == *key);
         let medium = reusable.map_or_else(
             || {
-                let fields = Fields {
-                    volume,
-                    maps: &key.maps,
-                    amounts: key.amounts,
-                    ambient_k: key.ambient_k,
-                };
+                let fields = key.fields(volume);
                 let frame = params.placement.world_from_file();
                 Arc::new(
                     fields
@@ -188,6 +217,11 @@ impl Flame {
         self.effect.soot
     }
 
+    /// What glows in the gas beside soot.
+    pub fn glow(&self) -> &Glow {
+        &self.effect.glow
+    }
+
     /// Absorption coefficient at a wavelength for a volume fraction of the *medium*, 1/m for each unit: the
     /// soot's law times amount and radius.
     pub fn absorption_per_sample(&self, lambda_nm: f64) -> f64 {
@@ -196,23 +230,22 @@ impl Flame {
     }
 }
 
-/// The box of the bulk of a volume's soot (its smoke where there is no soot) in the world, metres; empty if there is
-/// none. What a camera frames.
+/// The box of the bulk of a volume's soot (its smoke where there is no soot) and of what burns, in the world, metres;
+/// empty if there is none. What a camera frames.
 pub fn world_bounds(volume: &Volume, maps: &FieldMaps, placement: &Placement) -> Aabb {
-    let fields = [&maps.soot, &maps.smoke];
-    let grids = fields
-        .into_iter()
-        .flatten()
-        .filter_map(|map| volume.grid(&map.grid));
-    let Some((grid, bulk)) = grids
-        .map(|grid| (grid, grid.bulk()))
-        .find(|(_, bulk)| !bulk.is_empty())
-    else {
-        return Aabb::EMPTY;
+    let bulk_of = |map: &Option<FieldMap>| {
+        let grid = volume.grid(&map.as_ref()?.grid)?;
+        let bulk = grid.bulk();
+        let voxels = Aabb {
+            min: bulk.min.as_dvec3() - 0.5,
+            max: bulk.max.as_dvec3() - 0.5,
+        };
+        let world = placement.world_from_file() * grid.world_from_index();
+        (!bulk.is_empty()).then(|| voxels.transformed(&world))
     };
-    let voxels = Aabb {
-        min: bulk.min.as_dvec3() - 0.5,
-        max: bulk.max.as_dvec3() - 0.5,
-    };
-    voxels.transformed(&(placement.world_from_file() * grid.world_from_index()))
+    let soot = bulk_of(&maps.soot).or_else(|| bulk_of(&maps.smoke));
+    let burning = bulk_of(&maps.flame);
+    soot.into_iter()
+        .chain(burning)
+        .fold(Aabb::EMPTY, |all, bulk| all.union(&bulk))
 }

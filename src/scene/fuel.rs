@@ -1,37 +1,164 @@
-//! Fuels: which soot index a fuel's smoke was measured to have.
+//! Fuels: one row of a table for each, with its sources.
 
-use serde::{Deserialize, Serialize};
-
+use super::named::named_rows;
+use crate::physics::soot::{SootLaw, SootModel};
 use crate::physics::soot_index::SootIndex;
 
-/// A fuel that burns with soot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Fuel {
-    /// C₃H₈. Soot index of Dalzell & Sarofim (1969), propane.
-    #[default]
-    Propane,
-    /// C₂H₂. Soot index of Dalzell & Sarofim (1969), acetylene.
-    Acetylene,
+/// What is known of a fuel. To add a fuel, add a row to [`FUELS`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FuelRow {
+    /// The name in the scene file.
+    pub name: &'static str,
+    /// The name for a person.
+    pub label: &'static str,
+    /// Atoms of carbon, hydrogen and oxygen in a molecule or a typical unit: what its smoke gas is made of.
+    pub atoms: [f64; 3],
+    /// Whose measured soot index is its own, or the nearest; `None` for grey soot.
+    pub soot: Option<SootIndex>,
+    /// Soot for that of propane, where a volume leaves its amount to be assumed.
+    pub soot_yield: f64,
+    /// Adiabatic flame temperature in air at 1 atm, K: gas as hot as this is undiluted smoke gas.
+    pub flame_k: f64,
+    /// Light of the radicals CH, C₂ and CO₂* for that of a butane torch.
+    pub radicals: [f64; 3],
+    /// What the row was taken from.
+    pub source: &'static str,
 }
 
-impl Fuel {
-    /// Every fuel, in the order of a menu.
-    pub const ALL: [Self; 2] = [Self::Propane, Self::Acetylene];
+/// Sources of most rows.
+const TURNS: &str = "flame temperature: Turns, An Introduction to Combustion (2012), table B.1";
+const UNMEASURED: &str = "no index of its own was measured: that of propane soot";
 
-    /// The name in the scene file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Propane => "propane",
-            Self::Acetylene => "acetylene",
+/// The table. Soot yields are smoke yields of well-ventilated fires over propane's 0.024 (A. Tewarson, SFPE Handbook of
+/// Fire Protection Engineering, 3rd ed. (2002), table 3-4.14); for methane, which has none there, smoke points.
+/// Radicals are *illustrative*, after the spectra in A. G. Gaydon, *The Spectroscopy of Flames* (1974): the more carbon
+/// for its hydrogen, the more C₂; alcohols have hardly any.
+pub const FUELS: &[FuelRow] = &[
+    FuelRow {
+        name: "propane",
+        label: "Propane, C₃H₈",
+        atoms: [3.0, 8.0, 0.0],
+        soot: Some(SootIndex::Propane),
+        soot_yield: 1.0,
+        flame_k: 2267.0,
+        radicals: [1.0, 1.0, 1.0],
+        source: "soot: Dalzell & Sarofim (1969)",
+    },
+    FuelRow {
+        name: "acetylene",
+        label: "Acetylene, C₂H₂",
+        atoms: [2.0, 2.0, 0.0],
+        soot: Some(SootIndex::Acetylene),
+        soot_yield: 4.0,
+        flame_k: 2539.0,
+        radicals: [1.5, 4.0, 1.0],
+        source: "soot: Dalzell & Sarofim (1969)",
+    },
+    FuelRow {
+        name: "methane",
+        label: "Methane, CH₄ (natural gas)",
+        atoms: [1.0, 4.0, 0.0],
+        soot: Some(SootIndex::Propane),
+        soot_yield: 0.5,
+        flame_k: 2226.0,
+        radicals: [1.0, 0.5, 1.0],
+        source: UNMEASURED,
+    },
+    FuelRow {
+        name: "ethylene",
+        label: "Ethylene, C₂H₄",
+        atoms: [2.0, 4.0, 0.0],
+        soot: Some(SootIndex::Acetylene),
+        soot_yield: 1.8,
+        flame_k: 2369.0,
+        radicals: [1.2, 2.0, 1.0],
+        source: "no index of its own was measured: that of acetylene soot, which is as poor in hydrogen",
+    },
+    FuelRow {
+        name: "methanol",
+        label: "Methanol, CH₃OH (spirit)",
+        atoms: [1.0, 4.0, 1.0],
+        soot: Some(SootIndex::Propane),
+        soot_yield: 0.0,
+        flame_k: 2230.0,
+        radicals: [0.15, 0.05, 0.6],
+        source: "no soot: Tewarson (2002)",
+    },
+    FuelRow {
+        name: "wood",
+        label: "Wood, C₆H₁₀O₅",
+        atoms: [6.0, 10.0, 5.0],
+        soot: Some(SootIndex::Propane),
+        soot_yield: 0.6,
+        flame_k: 2250.0,
+        radicals: [0.6, 0.5, 1.0],
+        source: "red oak: Tewarson (2002); flame temperature of its gases to 50 K",
+    },
+    FuelRow {
+        name: "candle-wax",
+        label: "Candle wax, C₂₅H₅₂",
+        atoms: [25.0, 52.0, 0.0],
+        soot: Some(SootIndex::Propane),
+        soot_yield: 2.5,
+        flame_k: 2275.0,
+        radicals: [1.0, 1.0, 1.0],
+        source: "soot as of polyethylene, which has the same chains: Tewarson (2002)",
+    },
+    FuelRow {
+        name: "black-body",
+        label: "Black body (grey soot)",
+        atoms: [0.0, 0.0, 0.0],
+        soot: None,
+        soot_yield: 1.0,
+        flame_k: 2267.0,
+        radicals: [0.0, 0.0, 0.0],
+        source: "no fuel: absorbs all colours alike, so that a thick fire is a black body and a thin one its faint copy",
+    },
+];
+
+named_rows!(
+    /// A row of [`FUELS`]; the first is the default.
+    Fuel,
+    FuelRow,
+    FUELS,
+    "fuel"
+);
+
+impl Fuel {
+    /// How this fuel's soot absorbs under a model.
+    pub fn soot_law(self, model: SootModel) -> SootLaw {
+        match self.row().soot {
+            Some(index) => SootLaw::new(model, index),
+            None => SootLaw::new(SootModel::Grey, SootIndex::default()),
         }
     }
 
-    /// The measured index of this fuel's soot.
-    pub fn soot_index(self) -> SootIndex {
-        match self {
-            Self::Propane => SootIndex::Propane,
-            Self::Acetylene => SootIndex::Acetylene,
+    /// The row's sources in words.
+    pub fn sources(self) -> String {
+        format!("{}; {TURNS}", self.row().source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_row_is_whole_and_has_a_name_of_its_own() {
+        for (i, row) in FUELS.iter().enumerate() {
+            assert!(FUELS[..i].iter().all(|other| other.name != row.name));
+            assert!(!row.label.is_empty() && !row.source.is_empty());
+            assert!((2000.0..3000.0).contains(&row.flame_k), "{}", row.name);
+            assert!((0.0..=10.0).contains(&row.soot_yield));
+            assert!(
+                row.radicals
+                    .iter()
+                    .all(|light| (0.0..=10.0).contains(light))
+            );
+            // Soot is a fraction of the fuel's carbon, and so are the radicals.
+            if row.radicals.iter().any(|light| *light > 0.0) {
+                assert!(row.atoms[0] > 0.0, "{}", row.name);
+            }
         }
     }
 }

@@ -1,15 +1,19 @@
-//! The medium as the march sees it: soot volume fraction and temperature, side by side in bricks.
+//! The medium as the march sees it: soot volume fraction and temperature, side by side in bricks, and beside them,
+//! where burning gas glows by itself, the flame field.
 //!
 //! A brick covers 8³ voxels and stores 9³ samples, its own and the first layer of its upper neighbours, so that
-//! the eight corners of any trilinear cell lie in one brick: four loads of four floats. Only bricks with soot
-//! in them exist; the table of bricks is dense, an absent brick is [`NO_BRICK`].
+//! the eight corners of any trilinear cell lie in one brick: four loads of four floats. Only bricks with something
+//! that glows or absorbs in them exist (and, for [`Interpolation::Tricubic`], their neighbours); the table of bricks is
+//! dense, an absent brick is [`NO_BRICK`].
 //!
 //! Positions are in *lattice* coordinates: sample (i, j, k) of the packed box sits at (i, j, k), and the lattice
-//! starts on a brick border at or below the first voxel. Values between samples are trilinear in both fields.
+//! starts on a brick border below the first voxel. Values between samples follow [`Interpolation`], all fields alike.
 
 use glam::{DAffine3, DVec3, IVec3, UVec3};
 
+use super::interpolation::Interpolation;
 use crate::math::{Aabb, Ray};
+use crate::physics::blackbody;
 
 /// Voxels along a brick's edge.
 pub const BRICK: usize = 8;
@@ -36,12 +40,42 @@ pub struct Medium {
     pub(crate) table: Vec<u32>,
     /// [`BRICK_SAMPLES`] for each stored brick, x fastest.
     pub(crate) samples: Vec<Sample>,
+    /// The flame field 0 to 1 of the same samples; empty where no burning gas glows.
+    pub(crate) flame: Vec<f32>,
+    /// How values between samples are formed.
+    pub(crate) interpolation: Interpolation,
     /// Edge of a voxel in metres: the cube root of its volume.
     pub(crate) voxel_size_m: f64,
     /// Largest soot volume fraction of any sample.
     pub(crate) peak_volume_fraction: f32,
-    /// Highest temperature of any sample with soot, K; 0 without soot.
+    /// Highest temperature of any sample that glows or absorbs, K; 0 if none does.
     pub(crate) peak_temperature_k: f32,
+    /// The sample whose soot glows most.
+    pub(crate) brightest: Sample,
+    /// Largest value of the flame field.
+    pub(crate) peak_flame: f32,
+}
+
+/// Wavelength at which the brightest sample is looked for, nm: where the eye is most sensitive.
+const BRIGHTEST_NM: f64 = 555.0;
+
+impl Medium {
+    /// Notes what a sample adds to the peaks.
+    pub(super) fn note(&mut self, [soot, temperature_k]: Sample, flame: f32) {
+        let glow = |[soot, kelvin]: Sample| {
+            f64::from(soot) * blackbody::spectral_radiance(BRIGHTEST_NM, f64::from(kelvin))
+        };
+        self.peak_volume_fraction = self.peak_volume_fraction.max(soot);
+        self.peak_temperature_k = self.peak_temperature_k.max(temperature_k);
+        self.peak_flame = self.peak_flame.max(flame);
+        // The most soot at the highest temperature bounds what has been seen: a look at Planck's law is rarely needed.
+        if soot > self.brightest[0] || temperature_k > self.brightest[1] {
+            let sample = [soot, temperature_k];
+            if glow(sample) > glow(self.brightest) {
+                self.brightest = sample;
+            }
+        }
+    }
 }
 
 impl Medium {
@@ -55,19 +89,34 @@ impl Medium {
         self.peak_volume_fraction
     }
 
-    /// Highest temperature of any sample that holds soot, K; 0 if none does.
+    /// Highest temperature of any sample that glows or absorbs, K; 0 if none does.
     pub fn peak_temperature_k(&self) -> f32 {
         self.peak_temperature_k
     }
 
-    /// How many bricks hold soot, and how many the box has.
+    /// Soot volume fraction and temperature (K) of the sample whose soot glows most.
+    pub fn brightest(&self) -> [f32; 2] {
+        self.brightest
+    }
+
+    /// Largest value of the flame field; 0 where no burning gas glows.
+    pub fn peak_flame(&self) -> f32 {
+        self.peak_flame
+    }
+
+    /// How values between samples are formed.
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
+    /// How many bricks are stored, and how many the box has.
     pub fn occupancy(&self) -> (usize, usize) {
         (self.samples.len() / BRICK_SAMPLES, self.table.len())
     }
 
     /// Memory that the packed fields and their table take, bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.samples[..]) + size_of_val(&self.table[..])
+        size_of_val(&self.samples[..]) + size_of_val(&self.flame[..]) + size_of_val(&self.table[..])
     }
 
     /// A ray of the world in lattice coordinates, with the part of it inside the domain, in metres along it.
@@ -82,37 +131,55 @@ impl Medium {
     ///
     /// The f64 twin of the march's own f32 lookup, for references and probes.
     pub fn sample(&self, position: DVec3) -> [f64; 2] {
-        let base = position.floor();
-        let voxel = base.as_ivec3();
-        if voxel.cmplt(IVec3::ZERO).any() {
-            return [0.0; 2];
+        self.interpolated(position, |i| self.samples[i].map(f64::from))
+    }
+
+    /// The flame field at a point of the lattice, 0 to 1; 0 where no brick is or no burning gas glows.
+    pub fn flame(&self, position: DVec3) -> f64 {
+        if self.flame.is_empty() {
+            return 0.0;
         }
-        let brick = voxel.as_uvec3() / BRICK as u32;
-        if brick.cmpge(self.bricks).any() {
-            return [0.0; 2];
-        }
-        let slot = self.table[self.brick_index(brick)];
-        if slot == NO_BRICK {
-            return [0.0; 2];
-        }
-        let local = (voxel.as_uvec3() % BRICK as u32).as_usizevec3();
-        let fraction = position - base;
-        let first =
-            slot as usize * BRICK_SAMPLES + (local.z * SAMPLES + local.y) * SAMPLES + local.x;
-        let mut sum = [0.0; 2];
-        for corner in 0..8 {
-            let (dx, dy, dz) = (corner & 1, corner >> 1 & 1, corner >> 2);
-            let weight = [(dx, fraction.x), (dy, fraction.y), (dz, fraction.z)]
-                .into_iter()
-                .map(|(bit, f)| if bit == 1 { f } else { 1.0 - f })
-                .product::<f64>();
-            let sample = self.samples[first + (dz * SAMPLES + dy) * SAMPLES + dx];
-            sum = [
-                sum[0] + weight * f64::from(sample[0]),
-                sum[1] + weight * f64::from(sample[1]),
-            ];
-        }
+        self.interpolated(position, |i| [f64::from(self.flame[i])])[0]
+    }
+
+    /// The interpolated value of what `read` reads of a stored sample; zero where no brick is.
+    fn interpolated<const N: usize>(
+        &self,
+        position: DVec3,
+        read: impl Fn(usize) -> [f64; N],
+    ) -> [f64; N] {
+        let mut sum = [0.0; N];
+        self.interpolation
+            .for_each_cell(position, |voxel, fraction, weight| {
+                let Some(first) = self.cell(voxel) else {
+                    return;
+                };
+                for corner in 0..8 {
+                    let (dx, dy, dz) = (corner & 1, corner >> 1 & 1, corner >> 2);
+                    let share = [(dx, fraction.x), (dy, fraction.y), (dz, fraction.z)]
+                        .into_iter()
+                        .map(|(bit, f)| if bit == 1 { f } else { 1.0 - f })
+                        .product::<f64>();
+                    let value = read(first + (dz * SAMPLES + dy) * SAMPLES + dx);
+                    sum = std::array::from_fn(|c| sum[c] + weight * share * value[c]);
+                }
+            });
         sum
+    }
+
+    /// Where the lowest corner of a voxel's cell is stored, if it is.
+    fn cell(&self, voxel: IVec3) -> Option<usize> {
+        let brick = voxel.as_uvec3() / BRICK as u32;
+        let inside = voxel.cmpge(IVec3::ZERO).all() && brick.cmplt(self.bricks).all();
+        let slot = if inside {
+            self.table[self.brick_index(brick)]
+        } else {
+            NO_BRICK
+        };
+        let local = (voxel.as_uvec3() % BRICK as u32).as_usizevec3();
+        (slot != NO_BRICK).then(|| {
+            slot as usize * BRICK_SAMPLES + (local.z * SAMPLES + local.y) * SAMPLES + local.x
+        })
     }
 
     /// Position of a brick in the table.

@@ -10,18 +10,25 @@ mod camera_moves;
 mod fit;
 pub mod flame;
 pub mod fuel;
+pub mod glow;
+pub mod interpolation;
 pub mod medium;
+mod named;
 mod packing;
 pub mod quadrature;
+pub mod salt;
 mod source;
 
 pub use air::Air;
 pub use camera::Camera;
 pub use flame::{Flame, FlameParams, Placement};
 pub use fuel::Fuel;
+pub use glow::{Glow, GlowParams};
+pub use interpolation::Interpolation;
 pub use medium::Medium;
 pub use packing::PackingError;
 pub use quadrature::WavelengthSet;
+pub use salt::Salt;
 
 /// Everything that light passes on its way to the film.
 #[derive(Debug, Clone)]
@@ -43,6 +50,8 @@ pub(crate) fn pack_for_tests(
         maps,
         amounts: [1.0, 1.0],
         ambient_k: 300.0,
+        gas: packing::GasFields::default(),
+        interpolation: Interpolation::default(),
     };
     fields.pack(&glam::DAffine3::IDENTITY, &crate::volume::Limits::default())
 }

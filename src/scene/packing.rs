@@ -4,13 +4,23 @@ use glam::{DAffine3, DVec3, IVec3, UVec3};
 use rayon::prelude::*;
 use thiserror::Error;
 
+use super::glow::VAPOUR_K;
+use super::interpolation::Interpolation;
 use super::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES, Sample};
 use super::source::Source;
 use crate::math::Aabb;
-use crate::volume::{Border, FieldMap, FieldMaps, Grid, Limits, Volume};
+use crate::volume::{Border, FieldMaps, Limits, Volume};
+
+mod layout;
+
+use layout::Layout;
 
 /// The coldest temperature stored, K: Planck's radiance at 1 K is zero in f32, and 1/T stays finite.
 const COLDEST_K: f64 = 1.0;
+
+/// Temperatures between which gas without a flame field is taken to begin to burn, K: hydrocarbon flames go out when
+/// they are colder than about 1600 K (R. F. Simmons and H. G. Wolfhard, Combust. Flame 1 (1957) 155).
+pub(super) const BURNING_K: [f64; 2] = [1600.0, 2000.0];
 
 /// Why fields cannot be packed side by side.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -52,18 +62,28 @@ pub(super) struct Fields<'a> {
     pub(super) amounts: [f64; 2],
     /// Temperature where there is no such field, K.
     pub(super) ambient_k: f64,
+    /// What of the gas must be there beside soot.
+    pub(super) gas: GasFields,
+    /// How values between samples will be formed.
+    pub(super) interpolation: Interpolation,
 }
 
-/// Where bricks go, before any is made.
-struct Layout<'a> {
-    reference: &'a Grid,
-    absorbers: Vec<Source<'a>>,
-    /// Box of the voxels, min inside, max outside.
-    voxels: [IVec3; 2],
-    /// First voxel of the lattice, on a brick's border.
-    origin: IVec3,
-    bricks: UVec3,
-    occupied: Vec<UVec3>,
+/// What of the gas is packed beside soot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct GasFields {
+    /// Whether burning gas glows, and what says where it burns.
+    pub(super) burning: Option<Burning>,
+    /// Whether hot gas glows: then bricks without soot are stored where a salt is vapour.
+    pub(super) hot: bool,
+}
+
+/// What says where gas burns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Burning {
+    /// The flame field.
+    Field,
+    /// The temperature, for want of a flame field: see [`BURNING_K`].
+    Temperature,
 }
 
 impl Fields<'_> {
@@ -72,72 +92,11 @@ impl Fields<'_> {
     /// # Errors
     /// The fields lie too far apart, or fill too many bricks.
     pub(super) fn check(&self, limits: &Limits) -> Result<(), PackingError> {
-        self.layout(limits).map(|_| ())
+        Layout::new(self, limits).map(|_| ())
     }
 
-    /// `None` if there is nothing to pack.
-    fn layout(&self, limits: &Limits) -> Result<Option<Layout<'_>>, PackingError> {
-        let Self {
-            volume,
-            maps,
-            amounts,
-            ..
-        } = *self;
-        let grid_of = |map: &Option<FieldMap>| map.as_ref().and_then(|map| volume.grid(&map.grid));
-        let Some(reference) = grid_of(&maps.soot).or_else(|| grid_of(&maps.smoke)) else {
-            return Ok(None);
-        };
-        let absorbers: Vec<Source<'_>> = [(&maps.soot, amounts[0]), (&maps.smoke, amounts[1])]
-            .into_iter()
-            .filter(|&(_, amount)| amount > 0.0)
-            .filter_map(|(map, amount)| Source::new(volume, map.as_ref(), reference, amount))
-            .filter(Source::has_data)
-            .collect();
-        if absorbers.is_empty() {
-            return Ok(None);
-        }
-        // In f64, where grids that lie far apart do not overflow.
-        let hull = absorbers
-            .iter()
-            .fold(Aabb::EMPTY, |hull, source| hull.union(&source.bounds()));
-        let edge = BRICK as f64;
-        let across = hull.size() / edge + 3.0;
-        let widest = 2_f64.powi(29);
-        let fits = across.element_product() <= limits.max_extent_bricks as f64;
-        // A hull that is not a number, of transforms beyond f64, does not fit either.
-        if !fits || hull.min.min_element() < -widest || hull.max.max_element() > widest {
-            return Err(PackingError::TooWide {
-                voxels: hull.size().to_array(),
-                limit: limits.max_extent_bricks,
-            });
-        }
-
-        // One layer around the voxels, from a brick's border on: what trilinear interpolation reaches.
-        let (min, max) = (hull.min.as_ivec3(), hull.max.as_ivec3());
-        let edge = BRICK as i32;
-        let origin = (min - 1).div_euclid(IVec3::splat(edge)) * edge;
-        let bricks = ((max + 1 - origin + edge - 1) / edge).as_uvec3();
-        let occupied = occupied_bricks(&absorbers, origin, bricks);
-        let bytes = (occupied.len() * BRICK_SAMPLES * size_of::<Sample>()) as u64;
-        if bytes > limits.max_bytes {
-            return Err(PackingError::TooLarge {
-                bricks: occupied.len() as u64,
-                bytes,
-                limit: limits.max_bytes,
-            });
-        }
-        Ok(Some(Layout {
-            reference,
-            absorbers,
-            voxels: [min, max],
-            origin,
-            bricks,
-            occupied,
-        }))
-    }
-
-    /// Packs soot, smoke and temperature. The lattice is that of the soot's grid (or the smoke's where there is no
-    /// soot); other fields are resampled onto it where their transforms differ.
+    /// Packs soot, smoke, temperature and what of the gas glows. The lattice is that of the soot's grid (or the next
+    /// one's where there is no soot); other fields are resampled onto it where their transforms differ.
     ///
     /// # Errors
     /// As [`Fields::check`].
@@ -146,31 +105,43 @@ impl Fields<'_> {
         world_from_file: &DAffine3,
         limits: &Limits,
     ) -> Result<Medium, PackingError> {
-        let Some(layout) = self.layout(limits)? else {
+        let Some(layout) = Layout::new(self, limits)? else {
             return Ok(empty());
         };
         let Layout {
             reference,
-            absorbers,
+            ref absorbers,
             voxels: [min, max],
             origin,
             bricks,
-            occupied,
+            ref occupied,
+            ..
         } = layout;
         let temperature = Source::new(self.volume, self.maps.temperature.as_ref(), reference, 1.0);
+        let flame = Source::new(self.volume, self.maps.flame.as_ref(), reference, 1.0);
         let ambient = [0.0, self.ambient_k.max(COLDEST_K) as f32];
-        let mut samples: Vec<Sample> = vec![ambient; occupied.len() * BRICK_SAMPLES];
+        let count = occupied.len() * BRICK_SAMPLES;
+        let mut samples: Vec<Sample> = vec![ambient; count];
+        let first = |brick: &UVec3| origin + brick.as_ivec3() * BRICK as i32;
         samples
             .par_chunks_exact_mut(BRICK_SAMPLES)
-            .zip(&occupied)
+            .zip(occupied)
             .for_each(|(samples, brick)| {
-                let first = origin + brick.as_ivec3() * BRICK as i32;
-                pack_brick(&absorbers, temperature.as_ref(), first, samples);
+                pack_brick(absorbers, temperature.as_ref(), first(brick), samples);
+            });
+        let mut burning = vec![0.0; if self.gas.burning.is_some() { count } else { 0 }];
+        burning
+            .par_chunks_exact_mut(BRICK_SAMPLES)
+            .zip(samples.par_chunks_exact(BRICK_SAMPLES))
+            .zip(occupied)
+            .for_each(|((burning, samples), brick)| match self.gas.burning {
+                Some(Burning::Temperature) => burn_by_heat(samples, burning),
+                _ => read_flame(flame.as_ref(), first(brick), burning),
             });
 
         let reach = match reference.border() {
             Border::Clamp => 0.5,
-            Border::Background => 1.0,
+            Border::Background => f64::from(self.interpolation.reach()),
         };
         let to_lattice = DAffine3::from_translation(-origin.as_dvec3());
         let world_from_lattice =
@@ -184,33 +155,45 @@ impl Fields<'_> {
             bricks,
             table: vec![NO_BRICK; bricks.as_u64vec3().element_product() as usize],
             samples,
+            flame: burning,
             voxel_size_m: world_from_lattice.matrix3.determinant().abs().cbrt(),
-            peak_volume_fraction: 0.0,
-            peak_temperature_k: 0.0,
+            interpolation: self.interpolation,
+            ..empty()
         };
-        medium.keep_sooty(&occupied);
+        medium.keep_what_shows(occupied, self.gas.hot);
         Ok(medium)
     }
 }
 
 impl Medium {
-    /// Enters the packed bricks into the table, closing the gaps of those that turned out clear (a brick beside one
-    /// with soot only in its far corner), and notes the peaks.
-    fn keep_sooty(&mut self, packed: &[UVec3]) {
+    /// Enters the packed bricks into the table, closing the gaps of those in which nothing shows (a brick beside one
+    /// with soot only in its far corner), and notes the peaks. A smooth interpolation reads from the neighbours of what
+    /// shows, so it keeps them.
+    fn keep_what_shows(&mut self, packed: &[UVec3], hot: bool) {
+        let vapour_k = VAPOUR_K[0] as f32;
+        let mut shows = vec![false; packed.len()];
+        for (i, shows) in shows.iter_mut().enumerate() {
+            for at in i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES {
+                let sample = self.samples[at];
+                let flame = self.flame.get(at).copied().unwrap_or(0.0);
+                if sample[0] > 0.0 || flame > 0.0 || (hot && sample[1] > vapour_k) {
+                    self.note(sample, flame);
+                    *shows = true;
+                }
+            }
+        }
+        if self.interpolation == Interpolation::Tricubic {
+            shows = self.beside(packed, &shows);
+        }
         let mut kept = 0;
         for (i, &brick) in packed.iter().enumerate() {
-            let own = i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES;
-            let sooty = self.samples[own.clone()]
-                .iter()
-                .filter(|sample| sample[0] > 0.0);
-            let peaks = sooty.fold([0.0_f32; 2], |peak, s| {
-                [peak[0].max(s[0]), peak[1].max(s[1])]
-            });
-            if peaks[0] == 0.0 {
+            if !shows[i] {
                 continue;
             }
-            self.peak_volume_fraction = self.peak_volume_fraction.max(peaks[0]);
-            self.peak_temperature_k = self.peak_temperature_k.max(peaks[1]);
+            let own = i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES;
+            if !self.flame.is_empty() {
+                self.flame.copy_within(own.clone(), kept * BRICK_SAMPLES);
+            }
             self.samples.copy_within(own, kept * BRICK_SAMPLES);
             let index = self.brick_index(brick);
             self.table[index] = kept as u32;
@@ -218,39 +201,38 @@ impl Medium {
         }
         self.samples.truncate(kept * BRICK_SAMPLES);
         self.samples.shrink_to_fit();
+        self.flame.truncate(kept * BRICK_SAMPLES);
+        self.flame.shrink_to_fit();
+    }
+
+    /// Which bricks show something or touch one that does.
+    fn beside(&self, packed: &[UVec3], shows: &[bool]) -> Vec<bool> {
+        let mut marks = vec![false; self.table.len()];
+        let limit = self.bricks.as_ivec3() - 1;
+        for (brick, _) in packed.iter().zip(shows).filter(|(_, shows)| **shows) {
+            let brick = brick.as_ivec3();
+            let range = [(brick - 1).max(IVec3::ZERO), (brick + 1).min(limit)];
+            layout::for_each_in(range, |beside| {
+                marks[self.brick_index(beside.as_uvec3())] = true;
+            });
+        }
+        packed
+            .iter()
+            .map(|&brick| marks[self.brick_index(brick)])
+            .collect()
     }
 }
 
-/// Bricks that any absorber may reach with a sample, in the order of the table.
-fn occupied_bricks(absorbers: &[Source<'_>], origin: IVec3, bricks: UVec3) -> Vec<UVec3> {
-    let count = bricks.as_u64vec3().element_product() as usize;
-    let mut marks = vec![false; count];
-    let edge = IVec3::splat(BRICK as i32);
-    for source in absorbers {
-        source.for_each_occupied(|voxels| {
-            // A brick at 8b holds samples 8b to 8b + 8, so a voxel on a border is in two of them.
-            let (min, max) = (voxels.min.as_ivec3(), voxels.max.as_ivec3());
-            let first = (min - 1 - origin).div_euclid(edge).max(IVec3::ZERO);
-            let last = (max - origin).div_euclid(edge).min(bricks.as_ivec3() - 1);
-            for z in first.z..=last.z {
-                for y in first.y..=last.y {
-                    for x in first.x..=last.x {
-                        let row = z as usize * bricks.y as usize + y as usize;
-                        marks[row * bricks.x as usize + x as usize] = true;
-                    }
-                }
-            }
-        });
+/// Visits a brick's samples with their voxels; the first is voxel `first`.
+fn for_each_sample<T>(samples: &mut [T], first: IVec3, mut visit: impl FnMut(IVec3, &mut T)) {
+    let edge = SAMPLES as i32;
+    for (i, sample) in samples.iter_mut().enumerate() {
+        let i = i as i32;
+        visit(
+            first + IVec3::new(i % edge, i / edge % edge, i / (edge * edge)),
+            sample,
+        );
     }
-    let (width, height) = (bricks.x as usize, bricks.y as usize);
-    let position = |i: usize| {
-        UVec3::new(
-            (i % width) as u32,
-            (i / width % height) as u32,
-            (i / width / height) as u32,
-        )
-    };
-    (0..count).filter(|&i| marks[i]).map(position).collect()
 }
 
 /// Fills a brick's samples, which come as ambient air; the first is voxel `first`.
@@ -260,27 +242,40 @@ fn pack_brick(
     first: IVec3,
     samples: &mut [Sample],
 ) {
-    let edge = SAMPLES as i32;
-    let mut fill = |field: &dyn Fn(IVec3, &mut Sample)| {
-        for (i, sample) in samples.iter_mut().enumerate() {
-            let i = i as i32;
-            field(
-                first + IVec3::new(i % edge, i / edge % edge, i / (edge * edge)),
-                sample,
-            );
-        }
-    };
     for source in absorbers {
         let value = source.read(first);
-        fill(&|voxel, sample| sample[0] += value(voxel) as f32);
+        for_each_sample(samples, first, |voxel, sample| {
+            sample[0] += value(voxel) as f32;
+        });
     }
     if let Some(temperature) = temperature {
         let value = temperature.read(first);
-        fill(&|voxel, sample| sample[1] = value(voxel).max(COLDEST_K) as f32);
+        for_each_sample(samples, first, |voxel, sample| {
+            sample[1] = value(voxel).max(COLDEST_K) as f32;
+        });
     }
 }
 
-/// A medium without any soot.
+/// Fills a brick's flame field from its grid; 0 without one.
+fn read_flame(flame: Option<&Source<'_>>, first: IVec3, burning: &mut [f32]) {
+    if let Some(flame) = flame {
+        let value = flame.read(first);
+        for_each_sample(burning, first, |voxel, burning| {
+            *burning = value(voxel).clamp(0.0, 1.0) as f32;
+        });
+    }
+}
+
+/// Fills a brick's flame field from its temperatures.
+fn burn_by_heat(samples: &[Sample], burning: &mut [f32]) {
+    let [from, to] = BURNING_K.map(|kelvin| kelvin as f32);
+    for (burning, sample) in burning.iter_mut().zip(samples) {
+        let t = ((sample[1] - from) / (to - from)).clamp(0.0, 1.0);
+        *burning = t * t * (3.0 - 2.0 * t);
+    }
+}
+
+/// A medium in which nothing shows.
 pub(super) fn empty() -> Medium {
     Medium {
         lattice_from_world: DAffine3::IDENTITY,
@@ -291,9 +286,13 @@ pub(super) fn empty() -> Medium {
         bricks: UVec3::ZERO,
         table: Vec::new(),
         samples: Vec::new(),
+        flame: Vec::new(),
         voxel_size_m: 1.0,
+        interpolation: Interpolation::default(),
         peak_volume_fraction: 0.0,
         peak_temperature_k: 0.0,
+        brightest: [0.0; 2],
+        peak_flame: 0.0,
     }
 }
 
@@ -301,6 +300,7 @@ pub(super) fn empty() -> Medium {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
     use super::*;
+    use crate::volume::{FieldMap, Grid};
 
     /// Two single voxels, `apart` voxels apart, in a grid each with its own voxel size.
     fn far(apart: f64, second_scale: f64) -> Volume {
@@ -330,6 +330,8 @@ mod tests {
             maps,
             amounts: [1.0, 1.0],
             ambient_k: 300.0,
+            gas: GasFields::default(),
+            interpolation: Interpolation::default(),
         };
         assert_eq!(
             fields.check(limits).err(),

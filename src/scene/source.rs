@@ -100,18 +100,18 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Visits the boxes of reference voxels (min inside, max outside) in which this field may be above zero.
-    pub(super) fn for_each_occupied(&self, mut visit: impl FnMut(Aabb)) {
-        if self.ambient() > 0.0 {
+    /// Visits the boxes of reference voxels (min inside, max outside) in which this field may be above a threshold.
+    pub(super) fn for_each_above(&self, threshold: f64, mut visit: impl FnMut(Aabb)) {
+        if self.ambient() > threshold {
             visit(self.bounds());
             return;
         }
         let edge = BRICK as i32;
         for (brick, values) in self.grid.bricks() {
-            let above_zero = |value: f32| self.map.apply(f64::from(value)) > 0.0;
+            let above = |value: f32| self.amount * self.map.apply(f64::from(value)) > threshold;
             let occupied = match values {
-                BrickRef::Constant(value) => above_zero(value),
-                BrickRef::Dense(values) => values.iter().copied().any(above_zero),
+                BrickRef::Constant(value) => above(value),
+                BrickRef::Dense(values) => values.iter().copied().any(above),
             };
             if occupied {
                 visit(self.in_reference(brick * edge, (brick + 1) * edge));

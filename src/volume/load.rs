@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use glam::IVec3;
 
 use super::file_volume::FileVolume;
+use super::procedural::BuiltIn;
 use super::sniff::{Sniffed, sniff};
 use super::watch::{Stretch, Watch};
 use super::{Format, Grid, Limits, Metadata, Volume, VolumeError};
-use super::{openvdb, procedural, report_ascii, report_binary};
+use super::{openvdb, report_ascii, report_binary};
 
 /// Enough of a file to tell what it is.
 const HEAD_BYTES: u64 = 256;
@@ -74,13 +75,17 @@ fn open_together(paths: &[PathBuf], limits: &Limits, watch: &Watch) -> Result<Vo
     Ok(merge(parts))
 }
 
-/// Opens files as [`open`] does, or makes the built-in flame if there are none.
+/// Opens files as [`open`] does, or makes the given built-in flame if there are none.
 ///
 /// # Errors
 /// As [`open`].
-pub fn open_or_built_in(paths: &[PathBuf], limits: &Limits) -> Result<Volume, VolumeError> {
+pub fn open_or_built_in(
+    paths: &[PathBuf],
+    built_in: BuiltIn,
+    limits: &Limits,
+) -> Result<Volume, VolumeError> {
     if paths.is_empty() {
-        Ok(procedural::torch())
+        Ok(built_in.volume())
     } else {
         open(paths, limits)
     }
@@ -233,6 +238,7 @@ fn merge(parts: Vec<FileVolume>) -> Volume {
         sources: Vec::new(),
         metadata: Metadata::default(),
         notes: Vec::new(),
+        built_in: None,
     };
     for part in parts {
         volume.grids.extend(part.grids);

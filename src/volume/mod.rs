@@ -40,6 +40,7 @@ pub use limits::Limits;
 pub use load::{open, open_or_built_in, open_watched};
 pub use naming::figures;
 pub use preset::{GLOW_K, PEAK_K, mapping, preset};
+pub use procedural::BuiltIn;
 pub use recognise::recognise;
 pub use summary::{GridSummary, MappedField, Summary, summarise};
 pub use watch::Watch;
@@ -111,6 +112,8 @@ pub struct Volume {
     pub voxel_size_is_known: bool,
     /// What was repaired, chosen or assumed while reading, in words.
     pub notes: Vec<String>,
+    /// Which of the program's own flames it is: one that was thought up, not given.
+    pub built_in: Option<BuiltIn>,
 }
 
 impl Volume {
@@ -124,6 +127,7 @@ impl Volume {
             metadata: Metadata::default(),
             voxel_size_is_known: true,
             notes: vec![note.to_owned()],
+            built_in: None,
         }
     }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use glam::IVec3;
-use sootlight::volume::{Limits, Volume, VolumeError, Watch, open, open_watched, procedural};
+use sootlight::volume::{BuiltIn, Limits, Volume, VolumeError, Watch, open, open_watched};
 
 use super::{grid, hostile, open_one, voxels, write};
 
@@ -78,7 +78,14 @@ fn ways(folder: &Path) -> Vec<(&'static str, Way)> {
         ("OpenVDB tiles", way(&hostile("vdb_tiles_zip.vdb"))),
         ("OpenVDB stream", way(&vdb_stream(folder, "vdb_good.vdb"))),
         ("a partner", partner),
-        ("the torch", Box::new(procedural::torch_watched)),
+        (
+            "the torch",
+            Box::new(|watch| BuiltIn::Torch.volume_watched(watch)),
+        ),
+        (
+            "the burner",
+            Box::new(|watch| BuiltIn::Burner.volume_watched(watch)),
+        ),
     ]
 }
 

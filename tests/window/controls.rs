@@ -3,7 +3,7 @@
 use sootlight::physics::soot::SootModel;
 use sootlight::project::Job;
 use sootlight::render::{Cancel, render_still};
-use sootlight::scene::Fuel;
+use sootlight::scene::{Fuel, Interpolation, Salt};
 use sootlight::volume::Producer;
 
 use super::*;
@@ -49,11 +49,14 @@ fn type_into(harness: &mut Harness<'_, App>, label: &str, text: &str) {
 
 #[test]
 fn fuel_changes_the_job_and_the_picture_where_the_soot_model_looks_at_it() {
-    let mut harness = tall_window(Project::default());
+    // How much soot there is was said by hand, so that only the soot's kind is the fuel's.
+    let mut project = Project::default();
+    project.set("volume.soot.scale=1").unwrap();
+    let mut harness = tall_window(project);
     let (before, generation) = (job(&harness), harness.state().generation());
     harness.get_by_label_contains("one soot for all fuels");
     choose(&mut harness, "Fuel", "Acetylene, C₂H₂");
-    assert_eq!(job(&harness).flame.fuel, Fuel::Acetylene);
+    assert_eq!(job(&harness).flame.fuel, Fuel::named("acetylene").unwrap());
     assert_eq!(
         harness.state().generation(),
         generation,
@@ -67,11 +70,47 @@ fn fuel_changes_the_job_and_the_picture_where_the_soot_model_looks_at_it() {
     let acetylene = harness.state().generation();
     assert_ne!(acetylene, generation);
     choose(&mut harness, "Fuel", "Propane, C₃H₈");
-    assert_eq!(job(&harness).flame.fuel, Fuel::Propane);
+    assert_eq!(job(&harness).flame.fuel, Fuel::named("propane").unwrap());
     settle(&mut harness);
     assert_ne!(harness.state().generation(), acetylene);
     assert_eq!(job(&harness).settings, before.settings);
     assert_eq!(job(&harness).camera, before.camera);
+}
+
+#[test]
+fn a_salt_colours_the_fire_and_its_amount_acts_only_then() {
+    let mut harness = tall_window(Project::default());
+    harness.get_by_label_contains("there is no salt");
+    let generation = harness.state().generation();
+    choose(&mut harness, "Salt", "Sodium (yellow)");
+    settle(&mut harness);
+    assert_ne!(harness.state().generation(), generation);
+    assert!(
+        harness
+            .query_by_label_contains("there is no salt")
+            .is_none()
+    );
+    assert_eq!(
+        job(&harness).flame.glow.salt,
+        Salt::named("sodium").unwrap()
+    );
+    type_into(&mut harness, "Salt amount", "2500");
+    assert_eq!(job(&harness).flame.glow.salt_ppm, 2500.0);
+}
+
+#[test]
+fn interpolation_is_chosen_and_renders_anew() {
+    let mut harness = tall_window(Project::default());
+    for (words, way) in [
+        ("Tricubic", Interpolation::Tricubic),
+        ("Nearest", Interpolation::Nearest),
+    ] {
+        let generation = harness.state().generation();
+        choose(&mut harness, "Between voxels", words);
+        assert_eq!(job(&harness).flame.interpolation, way);
+        settle(&mut harness);
+        assert_ne!(harness.state().generation(), generation);
+    }
 }
 
 #[test]
@@ -234,7 +273,7 @@ fn what_was_open_before_and_the_built_in_flame_can_be_opened_again() {
         settle(harness);
         job(harness).volume.sources.clone()
     };
-    assert!(open(&mut harness, "Built-in flame").is_empty());
+    assert!(open(&mut harness, "Built-in torch").is_empty());
     assert_eq!(open(&mut harness, "soot.txt"), [soot]);
 }
 

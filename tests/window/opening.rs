@@ -56,7 +56,7 @@ fn two_bad_files_give_the_built_in_flame() {
     let mut project = Project::default();
     project.volume.path = vec![PathBuf::from("no/such/file.vdb")];
     let harness = window_dropped_on(project, vec![write_bad(folder.path())]);
-    harness.get_by_label("built-in flame");
+    harness.get_by_label("built-in torch");
     harness.get_by_label_contains("The built-in flame is shown instead");
 }
 
@@ -75,7 +75,7 @@ fn a_first_load_that_is_cancelled_gives_the_built_in_flame() {
             app
         });
     settle(&mut harness);
-    harness.get_by_label("built-in flame");
+    harness.get_by_label("built-in torch");
     assert_eq!(
         harness.state().document().project.volume,
         Project::default().volume
@@ -106,7 +106,7 @@ fn a_cancelled_load_leaves_the_scene_as_it_was() {
     );
     assert_eq!(after, before);
     assert_eq!(harness.state().notice(), None);
-    harness.get_by_label("built-in flame");
+    harness.get_by_label("built-in torch");
     // Without a load there is nothing to cancel.
     harness.state_mut().cancel_loading();
     assert!(harness.state().is_settled());
@@ -129,7 +129,7 @@ fn a_file_with_nothing_to_render_leaves_the_scene_and_says_why() {
     );
     settle(&mut harness);
     harness.get_by_label_contains("nothing to render");
-    harness.get_by_label("built-in flame");
+    harness.get_by_label("built-in torch");
     let after = (
         harness.state().generation(),
         harness.state().document().project.clone(),
@@ -189,7 +189,7 @@ fn a_file_dropped_by_mistake_can_be_taken_back() {
     harness.get_by_label("Undo").click();
     harness.run_steps(2);
     settle(&mut harness);
-    harness.get_by_label("built-in flame");
+    harness.get_by_label("built-in torch");
     let job = harness.state().job().expect("a job");
     assert!(job.volume.sources.is_empty() && job.flame.soot_radius_nm == 60.0);
     harness.get_by_label("Redo").click();

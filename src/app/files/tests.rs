@@ -83,7 +83,7 @@ fn every_kind_of_request_stops_when_told() {
         "/tests/hostile/ascii_good_constant.txt"
     ));
     for request in [
-        Request::BuiltIn,
+        Request::BuiltIn(BuiltIn::Torch),
         Request::Project(vec![file.clone()]),
         Request::Files(vec![file.clone()]),
         Request::Partner(open, file),
@@ -137,7 +137,7 @@ fn a_partner_that_must_be_read_alone_goes_on_where_the_pair_ended() {
 #[test]
 fn an_older_load_wins_only_once_the_newer_one_failed() {
     let failed = || Outcome::Failed {
-        request: Request::BuiltIn,
+        request: Request::BuiltIn(BuiltIn::Torch),
         words: String::new(),
     };
     // Two loads run; the older one is the first to end.

@@ -11,6 +11,7 @@ use crate::app::files::paths_of;
 use crate::app::recent::Recent;
 use crate::app::theme::WARNING;
 use crate::scene::flame::world_bounds;
+use crate::volume::BuiltIn;
 
 /// What the section remembers between frames.
 #[derive(Debug, Default)]
@@ -72,7 +73,7 @@ impl FilePanel {
     }
 }
 
-/// What was open before, and the flame that needs no file.
+/// What was open before, and the flames that need no file.
 fn open_again(ui: &mut Ui, recent: &Recent, commands: &mut Vec<Command>) {
     let menu = ui.menu_button("Recent", |ui| {
         for files in recent.iter() {
@@ -93,12 +94,18 @@ fn open_again(ui: &mut Ui, recent: &Recent, commands: &mut Vec<Command>) {
         if recent.iter().next().is_some() {
             ui.separator();
         }
-        if ui.button("Built-in flame").clicked() {
-            commands.push(Command::BuiltIn);
+        for (flame, words) in [
+            (BuiltIn::Torch, "Built-in torch"),
+            (BuiltIn::Burner, "Built-in burner"),
+            (BuiltIn::Spirit, "Built-in spirit flame"),
+        ] {
+            if ui.button(words).clicked() {
+                commands.push(Command::BuiltIn(flame));
+            }
         }
     });
     menu.response
-        .on_hover_text("Files that were opened before, and the built-in flame.");
+        .on_hover_text("Files that were opened before, and the built-in flames.");
 }
 
 /// What was found in the file: at the end, because it is as long as it must be.

@@ -3,13 +3,15 @@
 use egui::Ui;
 
 use super::knob::{Choice, Knob, name, note};
-use super::{section, short, unit};
+use super::{Command, section, short, unit};
 use crate::physics::soot::{
     Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM, SootModel,
     volume_fraction_factor,
 };
-use crate::project::{Control, Job, Project, SootSettings, ranges, why_idle};
-use crate::scene::Fuel;
+use crate::project::{
+    Control, FuelSettings, Job, PRESETS, Project, SootSettings, ranges, why_idle,
+};
+use crate::scene::{Fuel, Salt};
 
 /// What temperature offsets may be, K: more than any flame.
 const OFFSETS_K: [f64; 2] = [-1e5, 1e5];
@@ -17,8 +19,14 @@ const OFFSETS_K: [f64; 2] = [-1e5, 1e5];
 const SCALES_K: [f64; 2] = [-1e9, 1e9];
 
 /// Draws the section.
-pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    project: &mut Project,
+    job: Option<&Job>,
+    commands: &mut Vec<Command>,
+) {
     section(ui, "Fire", true, |ui| {
+        presets(ui, commands);
         let idle = |control| job.and_then(|job| why_idle(job, control));
         fuel(ui, project, [Control::Fuel, Control::SootModel].map(idle));
         radius(ui, project, [Control::SootRadius, Control::Hold].map(idle));
@@ -39,6 +47,11 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
         if project.soot.amount <= 0.0 && project.smoke.amount > 0.0 && smokes {
             note(ui, "what still glows is smoke");
         }
+        glow(
+            ui,
+            project,
+            [Control::SaltAmount, Control::BlueGlow].map(idle),
+        );
     });
 }
 
@@ -61,12 +74,27 @@ pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, job: Option<&Jo
     });
 }
 
+/// Flames to start from.
+fn presets(ui: &mut Ui, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        let tip = "Sets what burns: fuel, salt, glow and soot. A file that is open keeps its shape and its mapping; one of \
+                   the program's own flames gives way to the one that shows the preset best.";
+        name(ui, "Burn as", tip);
+        let menu = ui.menu_button("a preset…", |ui| {
+            for preset in PRESETS {
+                if ui.button(preset.label).on_hover_text(preset.words).clicked() {
+                    commands.push(Command::Preset(preset));
+                }
+            }
+        });
+        menu.response.on_hover_text(tip);
+    });
+}
+
 fn fuel(ui: &mut Ui, project: &mut Project, [idle, idle_model]: [Option<String>; 2]) {
-    let words = |fuel: Fuel| match fuel {
-        Fuel::Propane => "Propane, C₃H₈",
-        Fuel::Acetylene => "Acetylene, C₂H₂",
-    };
-    let options = Fuel::ALL.map(|fuel| (fuel, words(fuel).to_owned(), ""));
+    let options: Vec<(Fuel, String, &str)> = Fuel::all()
+        .map(|fuel| (fuel, fuel.row().label.to_owned(), fuel.row().source))
+        .collect();
     Choice {
         label: "Fuel",
         options: &options,
@@ -82,6 +110,10 @@ fn fuel(ui: &mut Ui, project: &mut Project, [idle, idle_model]: [Option<String>;
             "Hottel & Broughton 1932",
             "Absorption falls with the power 1.39 of the wavelength: redder transparency.",
         ),
+        SootModel::Grey => (
+            "Grey",
+            "Absorbs all colours alike: Planck's law alone, as no soot is.",
+        ),
     };
     let options = SootModel::ALL.map(|model| {
         let (words, tip) = words(model);
@@ -95,6 +127,47 @@ fn fuel(ui: &mut Ui, project: &mut Project, [idle, idle_model]: [Option<String>;
         idle: idle_model,
     }
     .show(ui, &mut project.soot.model);
+}
+
+/// What glows in the gas beside soot.
+fn glow(ui: &mut Ui, project: &mut Project, [idle_salt, idle_blue]: [Option<String>; 2]) {
+    let default = FuelSettings::default();
+    let options: Vec<(Salt, String, &str)> = Salt::all()
+        .map(|salt| (salt, salt.row().label.to_owned(), ""))
+        .collect();
+    Choice {
+        label: "Salt",
+        options: &options,
+        tip: "A metal salt in the fuel. Its atoms and molecules glow in colours of their own where the gas is hot; soot \
+              outshines them, so fuels without soot show them best.",
+        default: default.salt,
+        idle: None,
+    }
+    .show(ui, &mut project.fuel.salt);
+    Knob {
+        label: "Salt amount",
+        unit: unit::PPM,
+        slider: [0.01, 10_000.0],
+        range: ranges::SALT_PPM,
+        logarithmic: true,
+        default: default.salt_ppm,
+        tip: "How many of a million molecules of the hot gas are the salt's metal. Lines of a thick vapour saturate: a \
+              hundred times the sodium gives ten times the light.",
+        idle: idle_salt,
+    }
+    .show(ui, &mut project.fuel.salt_ppm);
+    Knob {
+        label: "Blue glow",
+        unit: unit::TIMES,
+        slider: [0.01, 1000.0],
+        range: ranges::AMOUNT,
+        logarithmic: true,
+        default: default.blue_glow,
+        tip: "Multiplies the light that burning gas gives off by itself: CH, C₂ and CO₂*, the blue of a gas burner and \
+              at the foot of a candle's flame. Beside bright soot it is not seen.",
+        idle: idle_blue,
+    }
+    .show(ui, &mut project.fuel.blue_glow);
 }
 
 fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>; 2]) {

@@ -24,7 +24,8 @@ pub(super) use status::status;
 use super::Document;
 use super::exporter::Wish;
 use super::recent::Recent;
-use crate::project::Mend;
+use crate::project::{Mend, Preset};
+use crate::volume::BuiltIn;
 
 /// What a panel cannot do itself.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +35,9 @@ pub(super) enum Command {
     /// Open these files.
     Open(Vec<PathBuf>),
     /// Show the built-in flame.
-    BuiltIn,
+    BuiltIn(BuiltIn),
+    /// Burn as in a preset.
+    Preset(&'static Preset),
     /// Stop reading files.
     CancelLoading,
     /// Take the last change back.
@@ -108,7 +111,7 @@ impl Panels {
                         self.file.show(ui, document, recent, commands);
                         let recognised = document.recognised().cloned();
                         let (project, job) = document.parts();
-                        fire::show(ui, project, job);
+                        fire::show(ui, project, job, commands);
                         air::show(ui, project, job);
                         view::show(ui, project, commands);
                         quality::show(ui, project);

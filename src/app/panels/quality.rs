@@ -5,7 +5,7 @@ use egui::Ui;
 use super::knob::{Choice, Knob};
 use super::{section, unit};
 use crate::project::{Project, Quality, ranges};
-use crate::scene::WavelengthSet;
+use crate::scene::{Interpolation, WavelengthSet};
 
 /// Rays for each pixel that are offered.
 const RAYS: [u32; 5] = [1, 2, 4, 8, 16];
@@ -68,6 +68,24 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
                 render.samples_per_pixel,
             ) = (None, None, None);
         }
+        let options = Interpolation::ALL.map(|way| {
+            let tip = match way {
+                Interpolation::Nearest => "Each voxel a block, as the file has them.",
+                Interpolation::Trilinear => "Straight between voxels.",
+                Interpolation::Tricubic => {
+                    "Smooth, without lines of the lattice; softens detail of one voxel. Takes several times as long."
+                }
+            };
+            (way, capitalised(way.name()), tip)
+        });
+        Choice {
+            label: "Between voxels",
+            options: &options,
+            tip: "How values between the file's voxels are formed.",
+            default: Interpolation::default(),
+            idle: None,
+        }
+        .show(ui, &mut render.interpolation);
         let (_, wavelengths_default, rays_default) = render.quality.numbers();
 
         let options = WavelengthSet::ALL.map(|set| {

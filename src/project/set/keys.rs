@@ -22,6 +22,7 @@ const fn key(name: &'static str, expects: &'static str, meaning: &'static str) -
 const GRID: &str = "a grid's name, or \"\" for none";
 const RAW_FACTOR: &str = "a number, physical units for one unit of the file";
 const PHYSICAL: &str = "a number in physical units";
+const SWITCH: &str = "auto, on or off";
 const POINT: &str = "three numbers in m, such as [0, -2, 0.5]";
 
 /// Everything that a scene file can hold, in its order.
@@ -29,7 +30,12 @@ pub const KEYS: &[Key] = &[
     key(
         "volume.path",
         "a path or a list of paths",
-        "the volume; the built-in flame if not set",
+        "the volume; a built-in flame if not set",
+    ),
+    key(
+        "volume.built_in",
+        "torch, burner or spirit",
+        "which of the program's own flames is shown where there is no path",
     ),
     key(
         "volume.producer",
@@ -96,8 +102,24 @@ pub const KEYS: &[Key] = &[
     key("volume.temperature.max", PHYSICAL, "greatest value"),
     key(
         "fuel.name",
-        "propane or acetylene",
-        "what burns: whose soot it is",
+        "propane, acetylene, methane, ethylene, methanol, wood, candle-wax or black-body",
+        "what burns: whose soot it is, how much of it where the volume does not say, how blue it glows",
+    ),
+    key(
+        "fuel.salt",
+        "none, sodium, potassium, lithium, calcium, calcium-chloride, strontium, strontium-chloride, barium, \
+         barium-chloride, copper or copper-chloride",
+        "a salt in the fuel that colours the flame",
+    ),
+    key(
+        "fuel.salt_ppm",
+        "a number of ppm, 0 to 100000",
+        "mole fraction of the salt's metal in the undiluted hot gas",
+    ),
+    key(
+        "fuel.blue_glow",
+        "a number, 0 to 10000",
+        "multiplies the light of CH, C₂ and CO₂* where the flame field says that gas burns",
     ),
     key(
         "soot.radius_nm",
@@ -111,7 +133,7 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "soot.model",
-        "chang, dalzell-sarofim or hottel-broughton",
+        "chang, dalzell-sarofim, hottel-broughton or grey",
         "how absorption depends on wavelength",
     ),
     key(
@@ -138,6 +160,16 @@ pub const KEYS: &[Key] = &[
         "air.co2_ppm",
         "a number of ppm, 0 to 2000",
         "carbon dioxide; bends light, which shows only before a backdrop",
+    ),
+    key(
+        "effects.lines",
+        SWITCH,
+        "lines and bands of a salt's metal; auto: where there is a salt",
+    ),
+    key(
+        "effects.chemiluminescence",
+        SWITCH,
+        "the blue light of the reaction zone; auto: where there is a flame field and soot does not outshine it",
     ),
     key(
         "camera.eye",
@@ -180,6 +212,11 @@ pub const KEYS: &[Key] = &[
         "how many; overrides quality",
     ),
     key(
+        "render.interpolation",
+        "nearest, trilinear or tricubic",
+        "how values between voxels are formed; tricubic is smooth and never negative",
+    ),
+    key(
         "render.samples_per_pixel",
         "a whole number, 1 to 4096",
         "1 is the pixel's centre; overrides quality",
@@ -200,3 +237,28 @@ pub const KEYS: &[Key] = &[
         "how light becomes display values",
     ),
 ];
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+    use crate::physics::soot::SootModel;
+    use crate::scene::{Fuel, Interpolation, Salt};
+
+    #[test]
+    fn what_a_key_expects_names_every_row_of_its_table() {
+        let expects = |name: &str| KEYS.iter().find(|key| key.name == name).unwrap().expects;
+        let is_named = |key: &str, name: &str| {
+            let mut words = expects(key).split([',', ' ']);
+            assert!(words.any(|word| word == name), "{key} does not name {name}");
+        };
+        Fuel::all().for_each(|fuel| is_named("fuel.name", fuel.name()));
+        Salt::all().for_each(|salt| is_named("fuel.salt", salt.name()));
+        for model in SootModel::ALL {
+            is_named("soot.model", model.name());
+        }
+        for way in Interpolation::ALL {
+            is_named("render.interpolation", way.name());
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Flames that come with the program, as scene files: what burns, and which built-in flame shows it best.
+//!
+//! They lie in assets/scenes/presets and are read by the same road as any scene file. To add one, add a file and a row.
+
+use std::path::Path;
+
+use super::Project;
+use super::settings::VolumeSettings;
+
+/// A flame by its scene file.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// The name for a person.
+    pub label: &'static str,
+    /// What it looks like.
+    pub words: &'static str,
+    scene: &'static str,
+}
+
+macro_rules! preset {
+    ($name:literal, $label:literal, $words:literal) => {
+        Preset {
+            name: $name,
+            label: $label,
+            words: $words,
+            scene: include_str!(concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/assets/scenes/presets/",
+                $name,
+                ".toml"
+            )),
+        }
+    };
+}
+
+/// Every preset, in the order of a menu.
+pub static PRESETS: &[Preset] = &[
+    preset!(
+        "torch",
+        "Propane torch",
+        "Wrinkled sheets of soot, orange to yellow."
+    ),
+    preset!(
+        "gas-burner",
+        "Gas burner",
+        "A blue cone under a yellow tip: burnt with too little air."
+    ),
+    preset!("sodium", "Sodium yellow", "Table salt in a spirit flame."),
+    preset!("copper", "Copper green", "A copper salt in a spirit flame."),
+    preset!(
+        "strontium",
+        "Strontium red",
+        "A strontium salt in a spirit flame."
+    ),
+    preset!(
+        "lithium",
+        "Lithium crimson",
+        "A lithium salt in a spirit flame."
+    ),
+];
+
+impl Preset {
+    /// The preset of a name on the command line.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        PRESETS.iter().find(|preset| preset.name == name)
+    }
+
+    /// The whole scene.
+    pub fn project(&self) -> Project {
+        // The files are compiled in, and a test reads every one.
+        Project::from_toml(self.scene, Path::new("")).unwrap_or_default()
+    }
+
+    /// Takes over what burns. Fields that a person's file has stay as they are mapped: only where one of the program's
+    /// own flames is shown does the preset choose which.
+    pub fn apply(&self, project: &mut Project) {
+        let scene = self.project();
+        if project.volume.path.is_empty() && project.volume.built_in != scene.volume.built_in {
+            project.volume = VolumeSettings {
+                built_in: scene.volume.built_in,
+                ..VolumeSettings::default()
+            };
+        }
+        project.fuel = scene.fuel;
+        project.soot = scene.soot;
+        project.smoke = scene.smoke;
+        project.effects = scene.effects;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use std::path::PathBuf;
+
+    use super::*;
+    use crate::volume::BuiltIn;
+
+    #[test]
+    fn every_preset_reads_and_is_named_once() {
+        for (i, preset) in PRESETS.iter().enumerate() {
+            assert!(PRESETS[..i].iter().all(|other| other.name != preset.name));
+            let project = Project::from_toml(preset.scene, Path::new("")).unwrap();
+            project.check().unwrap();
+            assert_eq!(project, preset.project());
+            assert_eq!(Preset::named(preset.name), Some(preset));
+        }
+    }
+
+    #[test]
+    fn a_preset_changes_what_burns_and_leaves_a_file_as_it_is_read() {
+        let copper = Preset::named("gas-burner").unwrap();
+        let mut project = Project::default();
+        copper.apply(&mut project);
+        assert_eq!(project.volume.built_in, BuiltIn::Burner);
+        assert_eq!(project.fuel, copper.project().fuel);
+
+        let mut project = Project::default();
+        project.volume.path = vec![PathBuf::from("a.vdb")];
+        project.volume.temperature.scale = Some(700.0);
+        project.view.exposure_ev = 1.5;
+        let before = project.clone();
+        copper.apply(&mut project);
+        assert_eq!(project.volume, before.volume);
+        assert_eq!((project.view, project.camera), (before.view, before.camera));
+        assert_ne!(project.fuel, before.fuel);
+    }
+}

@@ -1,0 +1,232 @@
+//! What glows in the gas, baked for the march: its lines, bands and radicals over one step.
+//!
+//! A line or band in equilibrium takes from its own wavelengths what the gas behind sends through it, and gives its own
+//! light. With W(y) its equivalent width, y the depth gathered so far, and t the soot's transmittance so far, all light
+//! that it adds to what soot alone would give is, step by step,
+//!
+//! ```text
+//! ΔL = B(λ, T) (W(y₂) t₂ − W(y₁) t₁)
+//! ```
+//!
+//! for ∫ e^{−τ} (σ_line + σ_soot) B ds over its wavelengths, less the same without the line, is an integral of
+//! B d(W t). So the line's own shadow on the soot behind it is in it, and an isothermal flame gives B·W exactly. Radicals
+//! do not absorb: j t φ₁(τ) Δs.
+
+use super::growth::{FIT, GrowthFit, curve_of_growth_f32};
+use crate::math::lanes::{self, LANES, Lanes};
+use crate::physics::blackbody;
+use crate::scene::Flame;
+use crate::scene::glow::{Growth, Source, VAPOUR_K};
+
+/// Most features of any flame: the richest salt has 12, the radicals 4.
+pub const MAX_FEATURES: usize = 16;
+
+/// Features of one flame as the march takes them.
+#[derive(Debug, Clone)]
+pub struct GlowTable {
+    thermal: Vec<Thermal>,
+    radicals: Vec<Radical>,
+    /// X, Y, Z of a unit of each feature's light: the thermal ones, then the radicals.
+    colours: Vec<[f64; 3]>,
+    /// Temperature of air, and one over what undiluted gas is hotter, K and 1/K.
+    dilution: [f32; 2],
+    growth: GrowthFit,
+}
+
+/// A line or a band.
+#[derive(Debug, Clone, Copy)]
+struct Thermal {
+    /// Soot's absorption at its wavelength, as [`super::plan::Node::absorption`].
+    absorption: f32,
+    /// Planck's radiance times the feature's width, without its exponential, W m⁻² sr⁻¹.
+    planck_scale: f32,
+    planck_exponent_k: f32,
+    /// See [`Source::Thermal`].
+    strength: f32,
+    lower_k: f32,
+    growth: Growth,
+}
+
+/// A part of the radicals' light.
+#[derive(Debug, Clone, Copy)]
+struct Radical {
+    absorption: f32,
+    /// W m⁻³ sr⁻¹ where the flame field is 1.
+    emission: f32,
+}
+
+/// What a step of a packet meets.
+pub(super) struct Step {
+    /// ∫ f_v ds of the medium over the step, m.
+    pub(super) column: Lanes,
+    pub(super) inverse_temperature: Lanes,
+    pub(super) flame: Lanes,
+    /// Length, m; 0 for a ray that is through.
+    pub(super) length: Lanes,
+}
+
+impl GlowTable {
+    /// Bakes a flame's features; the radicals only if asked for.
+    pub(super) fn new(flame: &Flame, with_radicals: bool) -> Self {
+        let glow = flame.glow();
+        let [air, hot] = glow.dilution_k();
+        let mut table = Self {
+            thermal: Vec::new(),
+            radicals: Vec::new(),
+            colours: Vec::new(),
+            dilution: [air as f32, (1.0 / (hot - air)) as f32],
+            growth: *FIT,
+        };
+        // The thermal features come first.
+        for feature in glow.features() {
+            let nm = feature.lambda_nm;
+            let absorption = flame.absorption_per_sample(nm) as f32;
+            match feature.source {
+                Source::Thermal {
+                    width_nm,
+                    strength,
+                    lower_k,
+                    growth,
+                } => table.thermal.push(Thermal {
+                    absorption,
+                    planck_scale: (width_nm * blackbody::FIRST_RADIATION_CONSTANT / nm.powi(5))
+                        as f32,
+                    planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
+                    strength: strength as f32,
+                    lower_k: lower_k as f32,
+                    growth,
+                }),
+                Source::Radical(_) if !with_radicals => continue,
+                Source::Radical(emission) => table.radicals.push(Radical {
+                    absorption,
+                    emission: emission as f32,
+                }),
+            }
+            table.colours.push(feature.colour);
+        }
+        debug_assert!(table.colours.len() <= MAX_FEATURES);
+        table
+    }
+
+    /// Whether soot alone glows.
+    pub fn is_empty(&self) -> bool {
+        self.colours.is_empty()
+    }
+
+    /// Whether radicals glow.
+    pub fn has_radicals(&self) -> bool {
+        !self.radicals.is_empty()
+    }
+
+    /// XYZ of the features' light, W m⁻² sr⁻¹.
+    pub fn xyz_of(&self, light: impl Iterator<Item = f64>) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (light, colour) in light.zip(&self.colours) {
+            sum = std::array::from_fn(|c| sum[c] + light * colour[c]);
+        }
+        sum
+    }
+
+    /// Soot's absorption at each feature.
+    pub(super) fn absorptions(&self) -> impl Iterator<Item = f32> {
+        let thermal = self.thermal.iter().map(|feature| feature.absorption);
+        thermal.chain(self.radicals.iter().map(|feature| feature.absorption))
+    }
+}
+
+/// The features' light along a packet of rays.
+pub(super) struct GlowLight {
+    /// Radiance of each feature, W m⁻² sr⁻¹.
+    pub(super) total: [Lanes; MAX_FEATURES],
+    block: [Lanes; MAX_FEATURES],
+    transmittance: [Lanes; MAX_FEATURES],
+    /// Depth y of the thermal features: whole blocks, and the block that runs.
+    depth: [Lanes; MAX_FEATURES],
+    block_depth: [Lanes; MAX_FEATURES],
+    /// W t over the width after the last step.
+    width: [Lanes; MAX_FEATURES],
+}
+
+impl GlowLight {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        let zero = [[0.0; LANES]; MAX_FEATURES];
+        Self {
+            total: zero,
+            block: zero,
+            transmittance: [[1.0; LANES]; MAX_FEATURES],
+            depth: zero,
+            block_depth: zero,
+            width: zero,
+        }
+    }
+
+    /// Adds what a step gives.
+    #[inline(always)]
+    pub(super) fn step(&mut self, table: &GlowTable, step: &Step) {
+        let vapour = vapour(table.dilution, &step.inverse_temperature);
+        for (i, feature) in table.thermal.iter().enumerate() {
+            let (light, transmittance) = (&mut self.block[i], &mut self.transmittance[i]);
+            let (depth, width) = (&mut self.block_depth[i], &mut self.width[i]);
+            for lane in 0..LANES {
+                let inverse = step.inverse_temperature[lane];
+                let wien = lanes::exp(-feature.planck_exponent_k * inverse);
+                let planck = feature.planck_scale * wien / (1.0 - wien);
+                let lower = if feature.lower_k > 0.0 {
+                    lanes::exp(-feature.lower_k * inverse)
+                } else {
+                    1.0
+                };
+                let gas = vapour[lane] * inverse * step.length[lane];
+                depth[lane] += feature.strength * lower * (1.0 - wien) * gas;
+                let y = self.depth[i][lane] + depth[lane];
+                let absorbed = -lanes::exp_m1(-feature.absorption * step.column[lane]);
+                transmittance[lane] -= transmittance[lane] * absorbed;
+                let grown = match feature.growth {
+                    Growth::Line => curve_of_growth_f32(&table.growth, y),
+                    Growth::Box => -lanes::exp_m1(-y),
+                } * transmittance[lane];
+                light[lane] += planck * (grown - width[lane]);
+                width[lane] = grown;
+            }
+        }
+        for (i, feature) in (table.thermal.len()..).zip(&table.radicals) {
+            let (light, transmittance) = (&mut self.block[i], &mut self.transmittance[i]);
+            for lane in 0..LANES {
+                let tau = feature.absorption * step.column[lane];
+                let absorbed = -lanes::exp_m1(-tau);
+                // φ₁ → 1 where there is no soot.
+                let phi = if tau > 1e-12 { absorbed / tau } else { 1.0 };
+                let emitted = feature.emission * step.flame[lane] * step.length[lane];
+                light[lane] += transmittance[lane] * emitted * phi;
+                transmittance[lane] -= transmittance[lane] * absorbed;
+            }
+        }
+    }
+
+    /// Ends a block of steps: sums go to the totals, transmittances are taken afresh from the soot's column.
+    #[inline(always)]
+    pub(super) fn flush(&mut self, table: &GlowTable, column_m: &Lanes) {
+        for (i, absorption) in table.absorptions().enumerate() {
+            for lane in 0..LANES {
+                self.total[i][lane] += self.block[i][lane];
+                self.block[i][lane] = 0.0;
+                self.depth[i][lane] += self.block_depth[i][lane];
+                self.block_depth[i][lane] = 0.0;
+                self.transmittance[i][lane] = lanes::exp(-absorption * column_m[lane]);
+            }
+        }
+    }
+}
+
+/// Share of the salt's mole fraction that the gas holds as vapour: [`crate::scene::Glow::vapour_share`].
+#[inline(always)]
+fn vapour([air_k, per_k]: [f32; 2], inverse_temperature: &Lanes) -> Lanes {
+    let [solid, gas] = VAPOUR_K.map(|kelvin| kelvin as f32);
+    std::array::from_fn(|lane| {
+        let kelvin = 1.0 / inverse_temperature[lane];
+        let mixed = ((kelvin - air_k) * per_k).clamp(0.0, 1.0);
+        let t = ((kelvin - solid) / (gas - solid)).clamp(0.0, 1.0);
+        mixed * t * t * (3.0 - 2.0 * t)
+    })
+}
