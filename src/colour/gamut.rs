@@ -1,27 +1,31 @@
 //! Bringing a colour into the triangle of the display.
 //!
 //! ```text
-//! c⁺   = (c + √(c² + (ε·max(rgb))²))/2      for each channel c
-//! rgb' = rgb⁺ · Y/Y⁺
+//! far      paled at its hue until every channel is above −ε', see [`super::hue`]; then its Y again
+//! nearby   c⁺ = (c + √(c² + (ε·max(rgb))²))/2 for each channel c;   rgb' = rgb⁺ · Y/Y⁺
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | rgb, c | linear Rec. 709 light | 1 |
 //! | Y, Y⁺ | luminance of rgb and of rgb⁺ | 1 |
+//! | ε' | how far outside is nearby, in shares of the largest channel | 1 |
 //! | ε | softness; with 0, c⁺ is max(c, 0) | 1 |
 //!
-//! A negative channel is left out and the brightness kept. The colour goes to the nearest side of the triangle, so a deep
-//! red stays red; mixing with grey of the same luminance would lift its blue, and embers would turn pink. Black bodies
-//! below about 1900 K need this: a negative channel must never meet a power. Without softness the blue of a flame would
-//! set in at a line, which the eye finds; with it, c⁺ > 0 is smooth, keeps the order of the channels, and keeps grey grey.
+//! Leaving a negative channel out takes a colour to the nearest side of the triangle: good for what is close, as black
+//! bodies below 1900 K are, whose hue moves by less than 5°; a deep red stays red, and embers do not turn pink. But the
+//! lone lines of metals are far outside: 470 nm would turn by 28°, copper's 510 nm by 21°. Those first give up colour at
+//! their hue. Both keep the brightness, and a negative channel never meets a power. Without softness the blue of a flame
+//! would set in at a line, which the eye finds; with it, c⁺ > 0 is smooth, keeps the order of the channels, and keeps
+//! grey grey.
 //!
 //! **Validity.** Finite light. A colour without luminance is no light: black.
 //!
-//! **Source.** Our own: the hyperbola is the smooth maximum of c and 0. The luminance weights are the middle row of the matrix to XYZ, see [`super::xyz`].
+//! **Source.** Our own: the hyperbola is the smooth maximum of c and 0. The luminance weights are the middle row of the
+//! matrix to XYZ, see [`super::xyz`].
 
-/// Y of linear Rec. 709 light: the middle row of [`super::xyz::xyz_from_rgb`], rounded to f32.
-pub(super) const LUMINANCE: [f32; 3] = [0.212_639_01, 0.715_168_65, 0.072_192_32];
+use super::hue::{Apart, HueSpace};
+use super::xyz::LUMINANCE;
 
 /// The colour without negative channels, of the same luminance (see the page above).
 pub(super) fn without_negatives(rgb: [f32; 3], softness: f32) -> [f32; 3] {
@@ -34,6 +38,39 @@ pub(super) fn without_negatives(rgb: [f32; 3], softness: f32) -> [f32; 3] {
     } else {
         [0.0; 3]
     }
+}
+
+/// How a colour outside of the triangle is paled at its hue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paling {
+    /// How far below 0 a channel may stay, in shares of the largest.
+    pub outside: f32,
+    /// From which share of the way to that bound on colour gives way, 0..1: the rest is a bend instead of a kink.
+    pub start: f32,
+}
+
+/// The colour paled at its hue until it lies in the triangle or nearby, of the same luminance.
+pub(super) fn paled(rgb: [f32; 3], paling: Paling, space: &HueSpace) -> [f32; 3] {
+    let Some((apart, kept)) = nearer_grey(rgb, paling, space) else {
+        return rgb;
+    };
+    if kept >= 1.0 {
+        return rgb;
+    }
+    let pale = space.rgb(apart.paled(kept));
+    let scale = luminance(rgb) / luminance(pale);
+    pale.map(|channel| channel * scale)
+}
+
+/// A colour in units of its largest channel, taken apart, and the share of it that stays; `None` without light.
+pub(super) fn nearer_grey(rgb: [f32; 3], paling: Paling, space: &HueSpace) -> Option<(Apart, f32)> {
+    if luminance(rgb) <= 0.0 {
+        return None;
+    }
+    let largest = rgb[0].max(rgb[1]).max(rgb[2]);
+    let apart = space.apart(rgb.map(|channel| channel / largest))?;
+    let kept = apart.kept(space.rgb_from_receptors, paling.outside, paling.start);
+    Some((apart, kept))
 }
 
 /// max(c, 0), rounded off by a hyperbola where |c| is of the size of `bend`.
@@ -50,7 +87,7 @@ fn smooth_positive(channel: f32, bend: f32) -> f32 {
 }
 
 /// Y of linear Rec. 709 light.
-fn luminance([r, g, b]: [f32; 3]) -> f32 {
+pub(super) fn luminance([r, g, b]: [f32; 3]) -> f32 {
     LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b
 }
 

@@ -25,6 +25,9 @@ pub const PRIMARIES_XY: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06
 /// Chromaticity x, y of their white, which stands for D65.
 pub const WHITE_XY: [f64; 2] = [0.3127, 0.3290];
 
+/// Y of linear Rec. 709 light: the middle row of [`xyz_from_rgb`], rounded to f32.
+pub(super) const LUMINANCE: [f32; 3] = [0.212_639_01, 0.715_168_65, 0.072_192_32];
+
 /// Linear value at which the sRGB transfer function turns from a line into a power.
 const ENCODE_SEAM: f64 = 0.0031308;
 

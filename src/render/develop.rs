@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::Flaws;
 use super::film::{Film, Pixel};
+use super::white::black_body_xyz;
 use crate::colour::cie;
 use crate::colour::display::{BakedView, Curve, View};
 
@@ -14,10 +15,16 @@ use crate::colour::display::{BakedView, Curve, View};
 pub struct ViewParams {
     /// Stops above the automatic exposure.
     pub exposure_ev: f64,
-    /// Degree of von Kries adaptation to the fire's own white, 0 to 1.
+    /// Degree of von Kries adaptation to the white, 0 to 1.
     pub adaptation: f64,
+    /// Temperature of the black body whose colour is the white, K; `None`: the fire's own white, as it was measured.
+    pub white_k: Option<f64>,
     /// How light becomes display values.
     pub curve: Curve,
+    /// Luminance to which the eye's curve responds half, cd m⁻²; `None`: follows the automatic exposure.
+    pub half_saturation_cd_m2: Option<f64>,
+    /// Whether luminance is shown in stops, each of a colour, in place of the picture.
+    pub false_colour: bool,
 }
 
 /// What the automatic exposure saw.
@@ -39,6 +46,9 @@ const BRIGHT: f64 = 0.995;
 /// Display-linear value of the 99.5th percentile of lit pixels: the body of a flame stays below white, its core
 /// goes above and rolls off along the curve.
 const BRIGHT_LEVEL: f64 = 4.0;
+
+/// Half-saturation of the eye where none is set, in shares of what the automatic exposure makes display white.
+const AUTOMATIC_HALF: f64 = 1.0;
 
 /// Least luminance that the automatic exposure makes display white, cd m⁻²: where mesopic vision ends and colours are
 /// no longer seen (CIE 191:2010). Soot at room temperature stays dark.
@@ -113,9 +123,24 @@ impl Metering {
         View {
             exposure: self.exposure * params.exposure_ev.exp2(),
             adaptation: params.adaptation,
-            white_xyz: self.white_xyz,
+            white_xyz: params.white_k.map_or(self.white_xyz, black_body_xyz),
             curve: params.curve,
+            half_saturation: params
+                .half_saturation_cd_m2
+                .map_or(AUTOMATIC_HALF, |half| self.share_of_white(half)),
+            false_colour: params.false_colour,
         }
+    }
+
+    /// Luminance to which the eye's curve responds half if none is set, cd m⁻².
+    pub fn automatic_half_saturation_cd_m2(&self) -> f64 {
+        AUTOMATIC_HALF * cie::MAX_LUMINOUS_EFFICACY / self.exposure
+    }
+
+    /// A luminance in shares of what the automatic exposure makes display white. A stop set above that lets twice the
+    /// light into the eye, whose half-saturation stays: the eye is behind the exposure.
+    fn share_of_white(&self, cd_m2: f64) -> f64 {
+        cd_m2 * self.exposure / cie::MAX_LUMINOUS_EFFICACY
     }
 }
 

@@ -20,6 +20,7 @@ pub mod film;
 pub mod march;
 pub mod pass;
 pub mod plan;
+pub mod white;
 
 pub use film::{Film, Pixel, Tile};
 pub use pass::{Pass, render_pass};
