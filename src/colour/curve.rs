@@ -3,7 +3,7 @@
 //! ```text
 //! photographic  y(v) = v / (1 + v^p)^(1/p)      p = 1.6       mostly channel by channel
 //!               w(v) = v² / (v² + v_w²)         v_w = 12
-//! filmic        y and w likewise                              by the brightest channel, at one hue
+//! filmic        y and w likewise,               v_w = 6        by the brightest channel, at one hue
 //! eye           y(Y) = Y / (Y + τ)              w = 0         by luminance, at one hue
 //! linear        y(v) = min(v, 1)                w = 0         channel by channel
 //! ```
@@ -63,8 +63,10 @@ pub enum Road {
 
 /// Sharpness p of the shoulder.
 const SHOULDER: f64 = 1.6;
-/// Light v_w that is mixed half with white.
+/// Light v_w that the photographic curve mixes half with white.
 const HALF_WHITE: f64 = 12.0;
+/// Light v_w that the filmic curve pales by half: earlier, because nothing else tells its bright parts apart.
+const HALF_WHITE_AT_ONE_HUE: f64 = 6.0;
 /// Share of the channel-by-channel curve in the photographic one; the rest keeps the ratio of the channels.
 const PHOTOGRAPHIC_PER_CHANNEL: f64 = 0.85;
 /// Softness with which the photographic curve brings colours into the triangle of the display: the blue of black bodies
@@ -103,7 +105,8 @@ impl Curve {
     /// The share of white in a colour whose brightest channel is v ≥ 0.
     pub(super) fn whiteness(self, light: f64) -> f64 {
         match self {
-            Self::Photographic | Self::Filmic => 1.0 / (1.0 + (HALF_WHITE / light).powi(2)),
+            Self::Photographic => 1.0 / (1.0 + (HALF_WHITE / light).powi(2)),
+            Self::Filmic => 1.0 / (1.0 + (HALF_WHITE_AT_ONE_HUE / light).powi(2)),
             Self::Eye | Self::Linear => 0.0,
         }
     }

@@ -141,18 +141,20 @@ impl BakedView {
 
     /// Steps 1 and 2: the linear Rec. 709 light that the display is to give, each channel 0..=1.
     pub fn linear(&self, xyz: [f32; 3]) -> [f32; 3] {
-        // Expose and adapt. Half a colour would be a wrong colour, so one bad channel makes the pixel black.
+        // Expose and adapt. Half a colour would be a wrong colour, so one bad channel makes it no light.
         let rgb = self
             .rgb_from_xyz
             .map(|row| row[0] * xyz[0] + row[1] * xyz[1] + row[2] * xyz[2]);
-        if !rgb.iter().all(|channel| channel.is_finite()) {
-            return [0.0; 3];
-        }
+        let (rgb, y) = if rgb.iter().all(|channel| channel.is_finite()) {
+            (rgb, xyz[1])
+        } else {
+            ([0.0; 3], 0.0)
+        };
         match self.road {
             Road::Channels => self.by_channels(rgb),
             Road::HueOfBrightest => self.by_hue(rgb, brightest),
             Road::HueOfLuminance => self.by_hue(rgb, gamut::luminance),
-            Road::FalseColour => self.by_stops(self.exposure * xyz[1]),
+            Road::FalseColour => self.by_stops(self.exposure * y),
         }
     }
 

@@ -47,8 +47,9 @@ const BRIGHT: f64 = 0.995;
 /// goes above and rolls off along the curve.
 const BRIGHT_LEVEL: f64 = 4.0;
 
-/// Half-saturation of the eye where none is set, in shares of what the automatic exposure makes display white.
-const AUTOMATIC_HALF: f64 = 1.0;
+/// Half-saturation of the eye where none is set, in shares of what the automatic exposure makes display white: half
+/// of the bright parts, which so respond by two thirds and keep room above them.
+const AUTOMATIC_HALF: f64 = BRIGHT_LEVEL / 2.0;
 
 /// Least luminance that the automatic exposure makes display white, cd m⁻²: where mesopic vision ends and colours are
 /// no longer seen (CIE 191:2010). Soot at room temperature stays dark.
@@ -220,5 +221,63 @@ mod tests {
         let metering = Metering::of(&film);
         assert_eq!(metering.bright_y, 2.0);
         assert_eq!(metering.white_xyz, [1.0, 2.0, 0.5]);
+    }
+
+    fn params(white_k: Option<f64>, half_saturation_cd_m2: Option<f64>) -> ViewParams {
+        ViewParams {
+            exposure_ev: 1.0,
+            adaptation: 1.0,
+            white_k,
+            curve: Curve::Eye,
+            half_saturation_cd_m2,
+            false_colour: false,
+        }
+    }
+
+    const METERING: Metering = Metering {
+        exposure: 0.02,
+        white_xyz: [1.0, 0.9, 0.3],
+        bright_y: 200.0,
+    };
+
+    #[test]
+    fn a_white_is_measured_unless_it_is_set() {
+        let white = |white_k| METERING.view(&params(white_k, None)).white_xyz;
+        assert_eq!(white(None), METERING.white_xyz);
+        assert_eq!(white(Some(2856.0)), black_body_xyz(2856.0));
+    }
+
+    #[test]
+    fn a_black_body_of_the_white_looks_white_to_an_adapted_eye() {
+        let view = METERING.view(&ViewParams {
+            curve: Curve::Linear,
+            exposure_ev: 0.0,
+            ..params(Some(2000.0), None)
+        });
+        let ember = black_body_xyz(2000.0);
+        let [r, g, b] =
+            BakedView::new(&view).apply(ember.map(|v| (0.5 / 0.02 * v / ember[1]) as f32));
+        // The display white of von Kries has four decimals.
+        assert!((r - g).abs() < 2e-3 && (g - b).abs() < 2e-3, "{r} {g} {b}");
+    }
+
+    #[test]
+    fn a_luminance_of_the_half_saturation_is_shown_at_half() {
+        // Twice the half through one stop of exposure is one half more.
+        for (half, luminance) in [(None, 34_150.0), (Some(700.0), 350.0)] {
+            let view = METERING.view(&params(None, half));
+            let y = luminance / cie::MAX_LUMINOUS_EFFICACY;
+            let white = crate::colour::xyz::xyz_from_xy(crate::colour::xyz::WHITE_XY) * y;
+            let eye = View {
+                adaptation: 0.0,
+                ..view
+            };
+            let [_, shown, _] = BakedView::new(&eye).linear(white.as_vec3().to_array());
+            assert!((shown - 0.5).abs() < 1e-3, "{half:?}: {shown}");
+        }
+        assert_eq!(
+            METERING.automatic_half_saturation_cd_m2(),
+            2.0 * 683.0 / 0.02
+        );
     }
 }

@@ -29,3 +29,45 @@ pub fn black_body_xyz(temperature_k: f64) -> [f64; 3] {
             [0, 1, 2].map(|i| sum[i] + radiance * matching[i])
         })
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    /// T, X, Y, Z of the reference file, which is divided by Σ ȳ.
+    fn references() -> Vec<[f64; 4]> {
+        let csv = include_str!(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/tests/golden/cie_integrals.csv"
+        ));
+        let lines = csv.lines().filter(|line| !line.starts_with(['#', 'T']));
+        lines
+            .map(|line| {
+                let mut fields = line.split(',').map(|field| field.parse().unwrap());
+                std::array::from_fn(|_| fields.next().unwrap())
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_white_is_the_black_body_of_the_reference() {
+        let norm: f64 = (360..=830)
+            .map(|nm| colour_matching(f64::from(nm))[1])
+            .sum();
+        let references = references();
+        assert!(references.len() > 15);
+        for [kelvin, expected @ ..] in references {
+            for (got, expected) in black_body_xyz(kelvin).into_iter().zip(expected) {
+                assert!((got / (expected * norm) - 1.0).abs() < 1e-13, "{kelvin} K");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_temperature_is_black() {
+        for kelvin in [0.0, -1.0, f64::NAN, f64::INFINITY, 1.0] {
+            assert_eq!(black_body_xyz(kelvin), [0.0; 3]);
+        }
+    }
+}

@@ -258,13 +258,15 @@ fn by_stops(light: f32) -> vec3<f32> {
 
 fn shown(xyz: vec3<f32>) -> vec3<f32> {
     // Expose and adapt.
-    let seen = vec3<f32>(
+    var seen = vec3<f32>(
         dot(view.rgb_from_xyz[0].xyz, xyz),
         dot(view.rgb_from_xyz[1].xyz, xyz),
         dot(view.rgb_from_xyz[2].xyz, xyz),
     );
+    var y = xyz.y;
     if !(is_finite(seen.r) && is_finite(seen.g) && is_finite(seen.b)) {
-        return vec3<f32>(0.0);
+        seen = vec3<f32>(0.0);
+        y = 0.0;
     }
     switch i32(view.receptors_from_rgb[0].w) {
         case 1: {
@@ -274,7 +276,7 @@ fn shown(xyz: vec3<f32>) -> vec3<f32> {
             return by_hue(seen, true);
         }
         case 3: {
-            return by_stops(view.receptors_from_rgb[1].w * xyz.y);
+            return by_stops(view.receptors_from_rgb[1].w * y);
         }
         default: {
             return by_channels(seen);

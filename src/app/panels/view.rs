@@ -74,12 +74,16 @@ fn adaptation(ui: &mut Ui, view: &mut ViewSettings) {
         default: ViewSettings::default().adaptation,
         tip: "How far the eye has got used to the white below. At 0 % a flame is as deep orange as it would be beside \
               daylight; at 100 % what has that white's colour looks white, as after minutes in a dark room.",
-        idle: unseen.clone(),
+        idle: unseen,
     }
     .show(ui, &mut view.adaptation);
     let none = (view.adaptation <= 0.0)
         .then(|| "an eye that has not adapted at all looks at no white".to_owned());
-    let idle = none.or(unseen);
+    let idle = if view.false_colour {
+        Some("no white changes luminance, which false colour shows".to_owned())
+    } else {
+        none
+    };
     let options = [
         (
             false,
