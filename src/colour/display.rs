@@ -251,8 +251,8 @@ fn table<T>(of_light: impl Fn(f64) -> T) -> Vec<T> {
 
 /// The value of a table at a light ≥ 0.
 fn lookup(table: &[f32], light: f32) -> f32 {
-    // Not a number for no light at all.
-    if !(light.log2() >= TABLE_FIRST_STOP) {
+    let stop = light.log2();
+    if stop.is_nan() || stop < TABLE_FIRST_STOP {
         return 0.0;
     }
     let (left, t) = place(light);

@@ -9,7 +9,7 @@
 //! |---|---|---|
 //! | rgb, c | linear Rec. 709 light | 1 |
 //! | Y, Y⁺ | luminance of rgb and of rgb⁺ | 1 |
-//! | ε' | how far outside is nearby, in shares of the largest channel | 1 |
+//! | ε' | how far outside is nearby, in shares of what the largest channel was | 1 |
 //! | ε | softness; with 0, c⁺ is max(c, 0) | 1 |
 //!
 //! Leaving a negative channel out takes a colour to the nearest side of the triangle: good for what is close, as black
@@ -43,7 +43,7 @@ pub(super) fn without_negatives(rgb: [f32; 3], softness: f32) -> [f32; 3] {
 /// How a colour outside of the triangle is paled at its hue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paling {
-    /// How far below 0 a channel may stay, in shares of the largest.
+    /// How far below 0 a channel may stay, in shares of what the largest was.
     pub outside: f32,
     /// From which share of the way to that bound on colour gives way, 0..1: the rest is a bend instead of a kink.
     pub start: f32,
@@ -93,8 +93,10 @@ pub(super) fn luminance([r, g, b]: [f32; 3]) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::xyz::xyz_from_rgb;
+    use super::super::cie::colour_matching;
+    use super::super::xyz::{rgb_from_xyz, xyz_from_rgb};
     use super::*;
+    use glam::DVec3;
     use proptest::prelude::*;
 
     #[test]
@@ -129,6 +131,26 @@ mod tests {
         }
     }
 
+    const PALING: Paling = Paling {
+        outside: 0.04,
+        start: 0.95,
+    };
+
+    #[test]
+    fn what_is_nearby_is_not_paled_at_all() {
+        let space = HueSpace::new();
+        // Black bodies at 1000, 1500 and 2500 K.
+        for rgb in [
+            [1.0, 0.009, -0.020],
+            [1.0, 0.133, -0.020],
+            [1.0, 0.372, 0.067],
+        ] {
+            assert_eq!(paled(rgb, PALING, &space), rgb);
+        }
+        assert_eq!(paled([0.0; 3], PALING, &space), [0.0; 3]);
+        assert_eq!(paled([1.0, -1.0, 0.0], PALING, &space), [1.0, -1.0, 0.0]);
+    }
+
     proptest! {
         #[test]
         fn luminance_stays_and_no_channel_is_negative(
@@ -138,6 +160,21 @@ mod tests {
             let mapped = without_negatives([r, g, b], softness);
             prop_assert!(mapped.iter().all(|channel| *channel >= 0.0));
             prop_assert!((luminance(mapped) - before.max(0.0)).abs() < 1e-5);
+        }
+
+        #[test]
+        fn what_is_far_comes_nearby_with_its_luminance(
+            nm in 400.0..700.0_f64, other in 400.0..700.0_f64, share in 0.0..1.0_f64, stop in -20.0..20.0_f64,
+        ) {
+            let [one, other] = [nm, other].map(|nm| DVec3::from_array(colour_matching(nm)));
+            let light = rgb_from_xyz() * (one * share + other * (1.0 - share)) * stop.exp2();
+            let rgb = light.as_vec3().to_array();
+            let near = paled(rgb, PALING, &HueSpace::new());
+            let [before, after] = [rgb, near].map(luminance);
+            prop_assert!((after / before - 1.0).abs() < 1e-4, "{:?} {:?}", rgb, near);
+            let largest = near[0].max(near[1]).max(near[2]);
+            let lowest = near[0].min(near[1]).min(near[2]);
+            prop_assert!(lowest > -0.2 * largest, "{:?} {:?}", rgb, near);
         }
 
         #[test]

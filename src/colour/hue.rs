@@ -167,3 +167,85 @@ impl Apart {
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use super::*;
+    use palette::{IntoColor, LinSrgb, Oklab};
+    use proptest::prelude::*;
+
+    const RED: [f32; 3] = [1.0, 0.0, 0.0];
+
+    #[test]
+    fn grey_is_exactly_grey() {
+        let space = HueSpace::new();
+        let apart = space.apart([0.7; 3]).unwrap();
+        assert!(apart.colour.iter().all(|d| d.abs() < 2e-7), "{apart:?}");
+        assert_eq!(apart.kept(space.rgb_from_receptors, 0.0, 0.9), 1.0);
+    }
+
+    #[test]
+    fn what_no_eye_sees_is_not_taken_apart() {
+        let space = HueSpace::new();
+        assert!(space.apart([-1.0, -1.0, 0.5]).is_none());
+        assert!(space.apart([0.0; 3]).is_none());
+    }
+
+    #[test]
+    fn a_bound_is_met_where_it_was_reached() {
+        let space = HueSpace::new();
+        // Twice as far from grey as red is, half of it may stay.
+        let red = space.apart(RED).unwrap();
+        let twice = red.paled(2.0);
+        let reach = space
+            .rgb_from_receptors
+            .map(|bound| twice.reach(bound, 0.0, 1.0 / 0.9));
+        let nearest = reach.into_iter().fold(2.0, f32::min);
+        assert!((nearest - 0.5).abs() < 1e-3, "{reach:?}");
+    }
+
+    #[test]
+    fn the_kept_share_has_no_kink() {
+        let space = HueSpace::new();
+        let red = space.apart(RED).unwrap();
+        // Colourfulness that is left, against what there was.
+        let left = |times: f32| times * red.paled(times).kept(space.rgb_from_receptors, 0.0, 0.9);
+        let slope = |times: f32| (left(times + 5e-3) - left(times - 5e-3)) / 1e-2;
+        for i in 0..300 {
+            let times = 0.7 + 0.005 * i as f32;
+            let (here, next) = (slope(times), slope(times + 0.005));
+            assert!((here - next).abs() < 0.12, "at {times}: {here}, {next}");
+            assert!(here > -1e-3 && left(times) < 1.0, "at {times}");
+        }
+        assert!(left(0.85) > 0.849 && left(8.0) > 0.98);
+    }
+
+    proptest! {
+        #[test]
+        fn parts_put_together_are_the_colour(r in 0.0..1.0_f32, g in 0.0..1.0_f32, b in 0.01..1.0_f32) {
+            let space = HueSpace::new();
+            let back = space.rgb(space.apart([r, g, b]).unwrap());
+            for (got, channel) in back.into_iter().zip([r, g, b]) {
+                prop_assert!((got - channel).abs() < 1e-5, "{} {}", got, channel);
+            }
+        }
+
+        #[test]
+        fn a_paler_colour_has_the_hue_and_the_lightness_that_another_crate_gives_it(
+            r in 0.0..1.0_f32, g in 0.0..1.0_f32, b in 0.0..1.0_f32, kept in 0.2..1.0_f32,
+        ) {
+            let space = HueSpace::new();
+            let theirs = |[r, g, b]: [f32; 3]| -> Oklab { LinSrgb::new(r, g, b).into_color() };
+            let before = theirs([r, g, b]);
+            prop_assume!(before.a.hypot(before.b) > 0.05);
+            let after = theirs(space.rgb(space.apart([r, g, b]).unwrap().paled(kept)));
+            prop_assert!((before.l - after.l).abs() < 1e-3, "{:?} {:?}", before, after);
+            // The parts along and across the old colour.
+            let across = before.a * after.b - before.b * after.a;
+            let along = before.a * after.a + before.b * after.b;
+            prop_assert!(across.atan2(along).to_degrees().abs() < 0.5, "{:?} {:?}", before, after);
+        }
+    }
+}

@@ -85,10 +85,16 @@ fn every_curve_can_be_chosen_and_the_eye_has_its_half_saturation() {
     }
     harness.get_by_label("follows the measured exposure");
     let [before, after] = changed(&mut harness, |harness| {
-        set_slider(harness, "Half at", 5000.0);
+        set_slider(harness, "Half at", 55_555.5);
     });
+    // As wide a number as there is: nothing is pushed out of the panel.
+    let right = |label| {
+        let row = harness.get_by_role_and_label(Role::SpinButton, label);
+        row.rect().right()
+    };
+    assert_eq!(right("Half at"), right("Exposure"));
     let metered = harness.state().document().metering.expect("a metering");
-    let wanted = 5000.0 * metered.exposure / 683.0;
+    let wanted = 55_555.5 * metered.exposure / 683.0;
     assert!((after.half_saturation / wanted - 1.0).abs() < 1e-12);
     assert_eq!(
         View {

@@ -117,7 +117,7 @@ pub(super) const LUMINANCE: Unit = Unit {
     name: "cd/m²",
     one: None,
     shown: 1.0,
-    decimals: 3,
+    decimals: 0,
     also: &[
         ("cd/m2", same),
         ("cd", same),
