@@ -74,6 +74,8 @@ fn of_the_built_in_flame() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     still(here, "torch.png", &["--size", "900x1100"]);
     window(here, "window.png", &[]);
+    let set = ["--set", "view.false_colour=true"];
+    window(here, "window_false_colour.png", &set);
 }
 
 #[test]

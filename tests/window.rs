@@ -6,6 +6,7 @@ mod export;
 mod opening;
 mod real;
 mod shader;
+mod view;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -317,12 +317,21 @@ impl Document {
 
     /// How the picture is developed: what a person set, over what was measured.
     pub fn view(&self) -> View {
-        let nothing = Metering {
+        self.metered().view(&self.project.view())
+    }
+
+    /// Luminance to which the eye's curve responds half if none is set, cd m⁻².
+    pub fn automatic_half_saturation_cd_m2(&self) -> f64 {
+        self.metered().automatic_half_saturation_cd_m2()
+    }
+
+    /// What was measured, or a stand-in for as long as nothing was.
+    fn metered(&self) -> Metering {
+        self.metering.unwrap_or(Metering {
             exposure: 1.0,
             white_xyz: [0.0; 3],
             bright_y: 0.0,
-        };
-        self.metering.unwrap_or(nothing).view(&self.project.view())
+        })
     }
 
     /// Takes the last step back.

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
+use crate::colour::display::Curve;
 use crate::project::Job;
 use crate::render::develop::{Metering, ViewParams};
 use crate::render::{Flaws, Frame};
@@ -81,14 +82,28 @@ impl Stats<'_> {
     }
 
     fn exposure(&self) -> Value {
-        let multiplier = self.metering.view(self.view).exposure;
+        let view = self.metering.view(self.view);
+        let multiplier = view.exposure;
         json!({
             "relative_ev": self.view.exposure_ev,
             "multiplier": finite(multiplier),
-            "white_xyz": self.metering.white_xyz.map(finite),
+            "white_xyz": view.white_xyz.map(finite),
+            "white": match self.view.white_k {
+                Some(kelvin) => json!({ "set_k": kelvin }),
+                None => json!("from the scene"),
+            },
+            "half_saturation_cd_m2": match self.view.curve {
+                Curve::Eye => finite(self.half_saturation_cd_m2()),
+                _ => Value::Null,
+            },
             "display_white_cd_m2": finite(MAX_LUMINOUS_EFFICACY / multiplier),
             "bright_cd_m2": finite(MAX_LUMINOUS_EFFICACY * self.metering.bright_y),
         })
+    }
+
+    fn half_saturation_cd_m2(&self) -> f64 {
+        let automatic = self.metering.automatic_half_saturation_cd_m2();
+        self.view.half_saturation_cd_m2.unwrap_or(automatic)
     }
 
     fn peak_luminance(&self) -> Value {

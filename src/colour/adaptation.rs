@@ -147,12 +147,13 @@ mod tests {
             }
             compared += 1;
         }
-        assert!(compared > 15, "only {compared} rows");
+        assert_eq!(compared, 20);
     }
 
     #[test]
     fn the_inverse_matrix_agrees_with_fifty_digit_arithmetic() {
         let inverse = matrix_from_rows(LMS_FROM_XYZ).inverse();
+        let mut compared = 0;
         for row in Table::parse(ADAPTATION_CSV).rows() {
             let Some(index) = row.text("case").strip_prefix("matrix_inverse_row") else {
                 continue;
@@ -160,11 +161,14 @@ mod tests {
             let expected = DVec3::from_array(triple(&row, ["out1", "out2", "out3"]));
             let error = (inverse.row(index.parse().unwrap()) - expected).abs();
             assert!(error.max_element() < 1e-15);
+            compared += 1;
         }
+        assert_eq!(compared, 3);
     }
 
     #[test]
     fn naka_rushton_agrees_with_fifty_digit_arithmetic() {
+        let mut compared = 0;
         for row in Table::parse(ADAPTATION_CSV).rows() {
             let Some(case) = row.text("case").strip_prefix("naka_rushton L=") else {
                 continue;
@@ -174,7 +178,9 @@ mod tests {
             let expected = row.number("out1");
             let floor = f64::MIN_POSITIVE;
             assert!((got - expected).abs() <= 1e-15 * expected + floor, "{case}");
+            compared += 1;
         }
+        assert_eq!(compared, 66, "with the others, every row of the file");
     }
 
     #[test]

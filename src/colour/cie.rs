@@ -164,9 +164,14 @@ mod tests {
     #[test]
     fn black_bodies_have_the_reference_tristimulus_values() {
         let norm = rectangle_sum(|_| 1.0)[1];
-        for row in Table::parse(INTEGRALS_CSV).rows() {
+        let table = Table::parse(INTEGRALS_CSV);
+        assert_eq!(table.rows().count(), 17);
+        for row in table.rows() {
             let temperature_k = row.number("T_K");
             let xyz = rectangle_sum(|lambda_nm| planck(lambda_nm, temperature_k));
+            for (got, column) in chromaticity(xyz).into_iter().zip(["x", "y"]) {
+                assert!((got / row.number(column) - 1.0).abs() < 1e-13);
+            }
             for (got, column) in xyz.into_iter().zip(["X", "Y", "Z"]) {
                 let expected = row.number(column) * norm;
                 assert!(
@@ -177,6 +182,66 @@ mod tests {
             let luminance = MAX_LUMINOUS_EFFICACY * xyz[1];
             assert!((luminance / row.number("Lv_cd_m-2") - 1.0).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn coarser_and_shorter_tables_err_as_the_reference_says() {
+        for row in Table::parse(INTEGRALS_CSV).rows() {
+            let temperature_k = row.number("T_K");
+            let sum = |nm: &mut dyn Iterator<Item = i32>| {
+                nm.fold([0.0; 3], |sum: [f64; 3], nm| {
+                    let lambda_nm = f64::from(nm);
+                    let matching = colour_matching(lambda_nm);
+                    let radiance = planck(lambda_nm, temperature_k);
+                    [0, 1, 2].map(|i| sum[i] + radiance * matching[i])
+                })
+            };
+            let all = sum(&mut (360..=830));
+            let coarse = sum(&mut (380..=780).step_by(5)).map(|v| 5.0 * v);
+            let short = sum(&mut (400..=700));
+            let [[x, y], [x5, y5], [x4, y4]] = [all, coarse, short].map(chromaticity);
+            for (got, column) in [
+                (x5, "x_5nm"),
+                (y5, "y_5nm"),
+                (coarse[1] / all[1] - 1.0, "Y_5nm_rel_err"),
+                (x4 - x, "dx_400_700"),
+                (y4 - y, "dy_400_700"),
+                (short[1] / all[1] - 1.0, "Y_400_700_rel_err"),
+            ] {
+                let expected = row.number(column);
+                assert!(
+                    (got - expected).abs() < 1e-13,
+                    "{column} at {temperature_k} K: {got:e}, expected {expected:e}"
+                );
+            }
+        }
+    }
+
+    /// The Planckian locus by B. Kang et al., J. Korean Phys. Soc. 41 (2002) 865, from 1667 to 25000 K.
+    #[test]
+    fn black_bodies_lie_on_the_planckian_locus() {
+        let mut compared = 0;
+        for row in Table::parse(INTEGRALS_CSV).rows() {
+            let t = row.number("T_K");
+            if !(1667.0..=25_000.0).contains(&t) {
+                continue;
+            }
+            let coefficients = if t <= 4000.0 {
+                [0.179910, 0.8776956, -0.2343589, -0.2661239]
+            } else {
+                [0.240390, 0.2226347, 2.1070379, -3.0258469]
+            };
+            let u = 1e3 / t;
+            let locus = coefficients.iter().rev().fold(0.0, |sum, c| sum * u + c);
+            let [x, _] = chromaticity(rectangle_sum(|nm| planck(nm, t)));
+            assert!((x - locus).abs() < 6e-4, "{t} K: {x}, locus {locus}");
+            compared += 1;
+        }
+        assert!(compared > 8, "only {compared}");
+    }
+
+    fn chromaticity([x, y, z]: [f64; 3]) -> [f64; 2] {
+        [x / (x + y + z), y / (x + y + z)]
     }
 
     #[test]

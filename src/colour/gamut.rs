@@ -1,27 +1,31 @@
 //! Bringing a colour into the triangle of the display.
 //!
 //! ```text
-//! c⁺   = (c + √(c² + (ε·max(rgb))²))/2      for each channel c
-//! rgb' = rgb⁺ · Y/Y⁺
+//! far      paled at its hue until every channel is above −ε', see [`super::hue`]; then its Y again
+//! nearby   c⁺ = (c + √(c² + (ε·max(rgb))²))/2 for each channel c;   rgb' = rgb⁺ · Y/Y⁺
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | rgb, c | linear Rec. 709 light | 1 |
 //! | Y, Y⁺ | luminance of rgb and of rgb⁺ | 1 |
+//! | ε' | how far outside is nearby, in shares of what the largest channel was | 1 |
 //! | ε | softness; with 0, c⁺ is max(c, 0) | 1 |
 //!
-//! A negative channel is left out and the brightness kept. The colour goes to the nearest side of the triangle, so a deep
-//! red stays red; mixing with grey of the same luminance would lift its blue, and embers would turn pink. Black bodies
-//! below about 1900 K need this: a negative channel must never meet a power. Without softness the blue of a flame would
-//! set in at a line, which the eye finds; with it, c⁺ > 0 is smooth, keeps the order of the channels, and keeps grey grey.
+//! Leaving a negative channel out takes a colour to the nearest side of the triangle: good for what is close, as black
+//! bodies below 1900 K are, whose hue moves by less than 5°; a deep red stays red, and embers do not turn pink. But the
+//! lone lines of metals are far outside: 470 nm would turn by 28°, copper's 510 nm by 21°. Those first give up colour at
+//! their hue. Both keep the brightness, and a negative channel never meets a power. Without softness the blue of a flame
+//! would set in at a line, which the eye finds; with it, c⁺ > 0 is smooth, keeps the order of the channels, and keeps
+//! grey grey.
 //!
 //! **Validity.** Finite light. A colour without luminance is no light: black.
 //!
-//! **Source.** Our own: the hyperbola is the smooth maximum of c and 0. The luminance weights are the middle row of the matrix to XYZ, see [`super::xyz`].
+//! **Source.** Our own: the hyperbola is the smooth maximum of c and 0. The luminance weights are the middle row of the
+//! matrix to XYZ, see [`super::xyz`].
 
-/// Y of linear Rec. 709 light: the middle row of [`super::xyz::xyz_from_rgb`], rounded to f32.
-pub(super) const LUMINANCE: [f32; 3] = [0.212_639_01, 0.715_168_65, 0.072_192_32];
+use super::hue::{Apart, HueSpace};
+use super::xyz::LUMINANCE;
 
 /// The colour without negative channels, of the same luminance (see the page above).
 pub(super) fn without_negatives(rgb: [f32; 3], softness: f32) -> [f32; 3] {
@@ -34,6 +38,39 @@ pub(super) fn without_negatives(rgb: [f32; 3], softness: f32) -> [f32; 3] {
     } else {
         [0.0; 3]
     }
+}
+
+/// How a colour outside of the triangle is paled at its hue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paling {
+    /// How far below 0 a channel may stay, in shares of what the largest was.
+    pub outside: f32,
+    /// From which share of the way to that bound on colour gives way, 0..1: the rest is a bend instead of a kink.
+    pub start: f32,
+}
+
+/// The colour paled at its hue until it lies in the triangle or nearby, of the same luminance.
+pub(super) fn paled(rgb: [f32; 3], paling: Paling, space: &HueSpace) -> [f32; 3] {
+    let Some((apart, kept)) = nearer_grey(rgb, paling, space) else {
+        return rgb;
+    };
+    if kept >= 1.0 {
+        return rgb;
+    }
+    let pale = space.rgb(apart.paled(kept));
+    let scale = luminance(rgb) / luminance(pale);
+    pale.map(|channel| channel * scale)
+}
+
+/// A colour in units of its largest channel, taken apart, and the share of it that stays; `None` without light.
+pub(super) fn nearer_grey(rgb: [f32; 3], paling: Paling, space: &HueSpace) -> Option<(Apart, f32)> {
+    if luminance(rgb) <= 0.0 {
+        return None;
+    }
+    let largest = rgb[0].max(rgb[1]).max(rgb[2]);
+    let apart = space.apart(rgb.map(|channel| channel / largest))?;
+    let kept = apart.kept(space.rgb_from_receptors, paling.outside, paling.start);
+    Some((apart, kept))
 }
 
 /// max(c, 0), rounded off by a hyperbola where |c| is of the size of `bend`.
@@ -50,14 +87,16 @@ fn smooth_positive(channel: f32, bend: f32) -> f32 {
 }
 
 /// Y of linear Rec. 709 light.
-fn luminance([r, g, b]: [f32; 3]) -> f32 {
+pub(super) fn luminance([r, g, b]: [f32; 3]) -> f32 {
     LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::xyz::xyz_from_rgb;
+    use super::super::cie::colour_matching;
+    use super::super::xyz::{rgb_from_xyz, xyz_from_rgb};
     use super::*;
+    use glam::DVec3;
     use proptest::prelude::*;
 
     #[test]
@@ -92,6 +131,26 @@ mod tests {
         }
     }
 
+    const PALING: Paling = Paling {
+        outside: 0.04,
+        start: 0.95,
+    };
+
+    #[test]
+    fn what_is_nearby_is_not_paled_at_all() {
+        let space = HueSpace::new();
+        // Black bodies at 1000, 1500 and 2500 K.
+        for rgb in [
+            [1.0, 0.009, -0.020],
+            [1.0, 0.133, -0.020],
+            [1.0, 0.372, 0.067],
+        ] {
+            assert_eq!(paled(rgb, PALING, &space), rgb);
+        }
+        assert_eq!(paled([0.0; 3], PALING, &space), [0.0; 3]);
+        assert_eq!(paled([1.0, -1.0, 0.0], PALING, &space), [1.0, -1.0, 0.0]);
+    }
+
     proptest! {
         #[test]
         fn luminance_stays_and_no_channel_is_negative(
@@ -101,6 +160,21 @@ mod tests {
             let mapped = without_negatives([r, g, b], softness);
             prop_assert!(mapped.iter().all(|channel| *channel >= 0.0));
             prop_assert!((luminance(mapped) - before.max(0.0)).abs() < 1e-5);
+        }
+
+        #[test]
+        fn what_is_far_comes_nearby_with_its_luminance(
+            nm in 400.0..700.0_f64, other in 400.0..700.0_f64, share in 0.0..1.0_f64, stop in -20.0..20.0_f64,
+        ) {
+            let [one, other] = [nm, other].map(|nm| DVec3::from_array(colour_matching(nm)));
+            let light = rgb_from_xyz() * (one * share + other * (1.0 - share)) * stop.exp2();
+            let rgb = light.as_vec3().to_array();
+            let near = paled(rgb, PALING, &HueSpace::new());
+            let [before, after] = [rgb, near].map(luminance);
+            prop_assert!((after / before - 1.0).abs() < 1e-4, "{:?} {:?}", rgb, near);
+            let largest = near[0].max(near[1]).max(near[2]);
+            let lowest = near[0].min(near[1]).min(near[2]);
+            prop_assert!(lowest > -0.2 * largest, "{:?} {:?}", rgb, near);
         }
 
         #[test]

@@ -7,7 +7,9 @@ pub mod adaptation;
 pub mod cie;
 mod curve;
 pub mod display;
+pub mod false_colour;
 mod gamut;
+mod hue;
 pub mod xyz;
 
 #[cfg(test)]

@@ -25,6 +25,9 @@ pub const PRIMARIES_XY: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06
 /// Chromaticity x, y of their white, which stands for D65.
 pub const WHITE_XY: [f64; 2] = [0.3127, 0.3290];
 
+/// Y of linear Rec. 709 light: the middle row of [`xyz_from_rgb`], rounded to f32.
+pub(super) const LUMINANCE: [f32; 3] = [0.212_639_01, 0.715_168_65, 0.072_192_32];
+
 /// Linear value at which the sRGB transfer function turns from a line into a power.
 const ENCODE_SEAM: f64 = 0.0031308;
 
@@ -102,12 +105,19 @@ mod tests {
 
     #[test]
     fn matrices_are_those_of_the_primaries() {
-        for row in Table::parse(MATRIX_CSV).rows() {
+        let table = Table::parse(MATRIX_CSV);
+        assert_eq!(table.rows().count(), 9);
+        for row in table.rows() {
             let (i, j) = (row.number("row") as usize, row.number("col") as usize);
             let there = xyz_from_rgb().row(i)[j] - row.number("rgb_to_xyz_exact");
             let back = rgb_from_xyz().row(i)[j] - row.number("xyz_to_rgb_exact");
             assert!(there.abs() < 1e-14, "row {i} column {j}: {there:e}");
             assert!(back.abs() < 1e-14, "row {i} column {j}: {back:e}");
+            // What is printed is the same matrix, to fewer digits.
+            for printed in ["xyz_to_rgb_iec61966", "xyz_to_rgb_pbrt"] {
+                let off = rgb_from_xyz().row(i)[j] - row.number(printed);
+                assert!(off.abs() < 5e-4, "{printed}, row {i} column {j}: {off:e}");
+            }
         }
     }
 

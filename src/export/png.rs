@@ -135,6 +135,8 @@ mod tests {
             adaptation: 0.0,
             white_xyz: [0.0; 3],
             curve: Curve::Linear,
+            half_saturation: 1.0,
+            false_colour: false,
         };
         let encoded = encode(
             &test_film(),

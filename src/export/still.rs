@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{ExportError, Format, Provenance, check_writable, exr, is_same_file, png, write};
 use crate::colour::display::BakedView;
-use crate::project::ranges::EXPOSURE_EV;
+use crate::project::ranges::{EXPOSURE_EV, HALF_SATURATION_CD_M2};
 use crate::project::{Darkness, Job, Project, ProjectError};
 use crate::render::develop::{Metering, flaws_of};
 use crate::render::{Cancel, Flaws, Frame, Settings, render_still};
@@ -122,8 +122,9 @@ impl Still {
     }
 
     /// The project that the command line makes the same picture from. It measures the still itself, so a locked
-    /// exposure becomes stops above what it will measure, as far as `view.exposure_ev` reaches. The white that the eye
-    /// adapts to is measured anew, too, and cannot be set: another size or quality may shift it a little.
+    /// exposure becomes stops above what it will measure, as far as `view.exposure_ev` reaches. Those stops stand before
+    /// the eye, so a half-saturation that is set rises with them. A white that is not set is measured anew: another size
+    /// or quality may shift it a little.
     fn portable(&self, own: &Metering) -> Project {
         let mut project = self.project.clone();
         if let Some(locked) = self.locked {
@@ -132,6 +133,10 @@ impl Still {
             let exposure_ev = project.view.exposure_ev + stops;
             if exposure_ev.is_finite() {
                 project.view.exposure_ev = exposure_ev.clamp(least, greatest);
+                let [least, greatest] = HALF_SATURATION_CD_M2;
+                let half = project.view.half_saturation_cd_m2;
+                project.view.half_saturation_cd_m2 =
+                    half.map(|half| (half * stops.exp2()).clamp(least, greatest));
             }
         }
         project
@@ -179,6 +184,25 @@ mod tests {
         assert!((stops(0.5, Some(own.exposure / 2.0)) + 0.5).abs() < 1e-9);
         assert_eq!(stops(0.0, Some(1e30 * own.exposure)), EXPOSURE_EV[1]);
         assert_eq!(stops(0.0, Some(1e-30 * own.exposure)), EXPOSURE_EV[0]);
+    }
+
+    #[test]
+    fn a_half_saturation_that_is_set_gives_the_same_picture_under_what_will_be_measured() {
+        let own = Metering::of(&test_film());
+        let locked = Metering {
+            exposure: 8.0 * own.exposure,
+            ..own
+        };
+        let (mut still, _) = still(0.5, None);
+        still.locked = Some(locked);
+        for half in [None, Some(300.0)] {
+            still.project.view.half_saturation_cd_m2 = half;
+            let shown = locked.view(&still.project.view());
+            let made_again = own.view(&still.portable(&own).view());
+            assert!((made_again.exposure / shown.exposure - 1.0).abs() < 1e-12);
+            let ratio = made_again.half_saturation / shown.half_saturation;
+            assert!((ratio - 1.0).abs() < 1e-12, "{half:?}: {ratio}");
+        }
     }
 
     #[test]

@@ -195,7 +195,10 @@ impl Project {
         ViewParams {
             exposure_ev: self.view.exposure_ev,
             adaptation: self.view.adaptation,
+            white_k: self.view.white_k,
             curve: self.view.curve,
+            half_saturation_cd_m2: self.view.half_saturation_cd_m2,
+            false_colour: self.view.false_colour,
         }
     }
 
@@ -258,6 +261,16 @@ impl Project {
                 ranges::EXPOSURE_EV,
             ),
             ("view.adaptation", self.view.adaptation, ranges::ADAPTATION),
+            (
+                "view.white_k",
+                self.view.white_k.unwrap_or(ranges::WHITE_K[0]),
+                ranges::WHITE_K,
+            ),
+            (
+                "view.half_saturation_cd_m2",
+                self.view.half_saturation_cd_m2.unwrap_or(1.0),
+                ranges::HALF_SATURATION_CD_M2,
+            ),
             (
                 "volume.voxel_size_m",
                 self.volume.voxel_size_m.unwrap_or(1.0),

@@ -19,5 +19,9 @@ pub const CO2_PPM: [f64; 2] = [0.0, 2000.0];
 pub const EXPOSURE_EV: [f64; 2] = [-20.0, 20.0];
 /// `view.adaptation`.
 pub const ADAPTATION: [f64; 2] = [0.0, 1.0];
+/// `view.white_k`: from an ember to the bluest sky.
+pub const WHITE_K: [f64; 2] = [1000.0, 20_000.0];
+/// `view.half_saturation_cd_m2`: from moonlight to the sun.
+pub const HALF_SATURATION_CD_M2: [f64; 2] = [1e-3, 1e9];
 /// `volume.voxel_size_m`.
 pub const VOXEL_SIZE_M: [f64; 2] = [1e-6, 1e4];

@@ -223,6 +223,8 @@ mod tests {
             ("render.step_voxels", ranges::STEP_VOXELS),
             ("view.exposure_ev", ranges::EXPOSURE_EV),
             ("view.adaptation", ranges::ADAPTATION),
+            ("view.white_k", ranges::WHITE_K),
+            ("view.half_saturation_cd_m2", ranges::HALF_SATURATION_CD_M2),
         ] {
             let expects = find(name).unwrap().expects;
             assert!(

@@ -326,10 +326,18 @@ impl Quality {
 pub struct ViewSettings {
     /// Stops above the automatic exposure, −20 to 20.
     pub exposure_ev: f64,
-    /// Degree to which the eye has adapted to the fire's white, 0 to 1.
+    /// Degree to which the eye has adapted to the white, 0 to 1.
     pub adaptation: f64,
+    /// Temperature of the black body that is white, K, 1000 to 20000; `None`: measured from the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub white_k: Option<f64>,
     /// How light becomes display values.
     pub curve: Curve,
+    /// Luminance to which the eye's curve responds half, cd m⁻²; `None`: follows the measured exposure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub half_saturation_cd_m2: Option<f64>,
+    /// Whether luminance is shown in stops, each of a colour, in place of the picture.
+    pub false_colour: bool,
 }
 
 impl Default for ViewSettings {
@@ -337,7 +345,10 @@ impl Default for ViewSettings {
         Self {
             exposure_ev: 0.0,
             adaptation: 0.2,
+            white_k: None,
             curve: Curve::default(),
+            half_saturation_cd_m2: None,
+            false_colour: false,
         }
     }
 }
@@ -377,6 +388,11 @@ pub(super) fn everything_set() -> Project {
             wavelengths: Some(WavelengthSet::Fitted(8)),
             interpolation: Interpolation::Tricubic,
             samples_per_pixel: Some(4),
+        },
+        view: ViewSettings {
+            white_k: Some(2000.0),
+            half_saturation_cd_m2: Some(1e5),
+            ..ViewSettings::default()
         },
         ..Project::default()
     }

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::Flaws;
 use super::film::{Film, Pixel};
+use super::white::black_body_xyz;
 use crate::colour::cie;
 use crate::colour::display::{BakedView, Curve, View};
 
@@ -14,10 +15,16 @@ use crate::colour::display::{BakedView, Curve, View};
 pub struct ViewParams {
     /// Stops above the automatic exposure.
     pub exposure_ev: f64,
-    /// Degree of von Kries adaptation to the fire's own white, 0 to 1.
+    /// Degree of von Kries adaptation to the white, 0 to 1.
     pub adaptation: f64,
+    /// Temperature of the black body whose colour is the white, K; `None`: the fire's own white, as it was measured.
+    pub white_k: Option<f64>,
     /// How light becomes display values.
     pub curve: Curve,
+    /// Luminance to which the eye's curve responds half, cd m⁻²; `None`: follows the automatic exposure.
+    pub half_saturation_cd_m2: Option<f64>,
+    /// Whether luminance is shown in stops, each of a colour, in place of the picture.
+    pub false_colour: bool,
 }
 
 /// What the automatic exposure saw.
@@ -39,6 +46,10 @@ const BRIGHT: f64 = 0.995;
 /// Display-linear value of the 99.5th percentile of lit pixels: the body of a flame stays below white, its core
 /// goes above and rolls off along the curve.
 const BRIGHT_LEVEL: f64 = 4.0;
+
+/// Half-saturation of the eye where none is set, in shares of what the automatic exposure makes display white: half
+/// of the bright parts, which so respond by two thirds and keep room above them.
+const AUTOMATIC_HALF: f64 = BRIGHT_LEVEL / 2.0;
 
 /// Least luminance that the automatic exposure makes display white, cd m⁻²: where mesopic vision ends and colours are
 /// no longer seen (CIE 191:2010). Soot at room temperature stays dark.
@@ -113,9 +124,24 @@ impl Metering {
         View {
             exposure: self.exposure * params.exposure_ev.exp2(),
             adaptation: params.adaptation,
-            white_xyz: self.white_xyz,
+            white_xyz: params.white_k.map_or(self.white_xyz, black_body_xyz),
             curve: params.curve,
+            half_saturation: params
+                .half_saturation_cd_m2
+                .map_or(AUTOMATIC_HALF, |half| self.share_of_white(half)),
+            false_colour: params.false_colour,
         }
+    }
+
+    /// Luminance to which the eye's curve responds half if none is set, cd m⁻².
+    pub fn automatic_half_saturation_cd_m2(&self) -> f64 {
+        AUTOMATIC_HALF * cie::MAX_LUMINOUS_EFFICACY / self.exposure
+    }
+
+    /// A luminance in shares of what the automatic exposure makes display white. A stop set above that lets twice the
+    /// light into the eye, whose half-saturation stays: the eye is behind the exposure.
+    fn share_of_white(&self, cd_m2: f64) -> f64 {
+        cd_m2 * self.exposure / cie::MAX_LUMINOUS_EFFICACY
     }
 }
 
@@ -195,5 +221,63 @@ mod tests {
         let metering = Metering::of(&film);
         assert_eq!(metering.bright_y, 2.0);
         assert_eq!(metering.white_xyz, [1.0, 2.0, 0.5]);
+    }
+
+    fn params(white_k: Option<f64>, half_saturation_cd_m2: Option<f64>) -> ViewParams {
+        ViewParams {
+            exposure_ev: 1.0,
+            adaptation: 1.0,
+            white_k,
+            curve: Curve::Eye,
+            half_saturation_cd_m2,
+            false_colour: false,
+        }
+    }
+
+    const METERING: Metering = Metering {
+        exposure: 0.02,
+        white_xyz: [1.0, 0.9, 0.3],
+        bright_y: 200.0,
+    };
+
+    #[test]
+    fn a_white_is_measured_unless_it_is_set() {
+        let white = |white_k| METERING.view(&params(white_k, None)).white_xyz;
+        assert_eq!(white(None), METERING.white_xyz);
+        assert_eq!(white(Some(2856.0)), black_body_xyz(2856.0));
+    }
+
+    #[test]
+    fn a_black_body_of_the_white_looks_white_to_an_adapted_eye() {
+        let view = METERING.view(&ViewParams {
+            curve: Curve::Linear,
+            exposure_ev: 0.0,
+            ..params(Some(2000.0), None)
+        });
+        let ember = black_body_xyz(2000.0);
+        let [r, g, b] =
+            BakedView::new(&view).apply(ember.map(|v| (0.5 / 0.02 * v / ember[1]) as f32));
+        // The display white of von Kries has four decimals.
+        assert!((r - g).abs() < 2e-3 && (g - b).abs() < 2e-3, "{r} {g} {b}");
+    }
+
+    #[test]
+    fn a_luminance_of_the_half_saturation_is_shown_at_half() {
+        // Twice the half through one stop of exposure is one half more.
+        for (half, luminance) in [(None, 34_150.0), (Some(700.0), 350.0)] {
+            let view = METERING.view(&params(None, half));
+            let y = luminance / cie::MAX_LUMINOUS_EFFICACY;
+            let white = crate::colour::xyz::xyz_from_xy(crate::colour::xyz::WHITE_XY) * y;
+            let eye = View {
+                adaptation: 0.0,
+                ..view
+            };
+            let [_, shown, _] = BakedView::new(&eye).linear(white.as_vec3().to_array());
+            assert!((shown - 0.5).abs() < 1e-3, "{half:?}: {shown}");
+        }
+        assert_eq!(
+            METERING.automatic_half_saturation_cd_m2(),
+            2.0 * 683.0 / 0.02
+        );
     }
 }

@@ -24,6 +24,7 @@ mod lookup;
 pub mod march;
 pub mod pass;
 pub mod plan;
+pub mod white;
 
 pub use film::{Film, Pixel, Tile};
 pub use pass::{Pass, render_pass};

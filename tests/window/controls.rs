@@ -9,7 +9,7 @@ use sootlight::volume::Producer;
 use super::*;
 
 /// A window as tall as its panel, so that the pointer reaches every control.
-fn tall_window(project: Project) -> Harness<'static, App> {
+pub(super) fn tall_window(project: Project) -> Harness<'static, App> {
     let mut harness = Harness::builder()
         .with_size([520.0, 1600.0])
         .with_step_dt(0.05)
@@ -19,11 +19,11 @@ fn tall_window(project: Project) -> Harness<'static, App> {
     harness
 }
 
-fn job(harness: &Harness<'_, App>) -> Job {
+pub(super) fn job(harness: &Harness<'_, App>) -> Job {
     harness.state().job().cloned().expect("a job")
 }
 
-fn choose(harness: &mut Harness<'_, App>, menu: &str, option: &str) {
+pub(super) fn choose(harness: &mut Harness<'_, App>, menu: &str, option: &str) {
     harness.get_by_role_and_label(Role::ComboBox, menu).click();
     harness.run_steps(3);
     let options = harness.get_all_by_label(option).collect::<Vec<_>>();

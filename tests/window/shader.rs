@@ -71,16 +71,22 @@ fn the_shader_shows_what_the_processor_computes() {
     let colours = random_colours();
     let film = film([SIDE; 2], 1, &colours);
     let warm = [1.1, 1.0, 0.2];
-    for (curve, adaptation, exposure) in [
-        (Curve::Filmic, 0.0, 1.0),
-        (Curve::Filmic, 0.8, 30.0),
-        (Curve::Linear, 0.3, 0.5),
-    ] {
+    let modes = Curve::ALL.into_iter().flat_map(|curve| {
+        let [dim, bright] = [(0.0, 1.0), (0.8, 30.0)];
+        [
+            (curve, dim, false),
+            (curve, bright, false),
+            (curve, dim, true),
+        ]
+    });
+    for (curve, (adaptation, exposure), false_colour) in modes {
         let view = BakedView::new(&View {
             exposure,
             adaptation,
             white_xyz: warm,
             curve,
+            half_saturation: 0.4,
+            false_colour,
         });
         let canvas = Canvas {
             format: wgpu::TextureFormat::Rgba8Unorm,
@@ -93,7 +99,7 @@ fn the_shader_shows_what_the_processor_computes() {
                 let off = 255.0 * (wanted[c] - shown[c]).abs();
                 assert!(
                     off <= 1.001,
-                    "{curve:?}, colour {i} {xyz:?}: {wanted:?} but {shown:?}"
+                    "{curve:?} {false_colour}, colour {i} {xyz:?}: {wanted:?} but {shown:?}"
                 );
             }
         }
@@ -107,6 +113,8 @@ fn plain() -> BakedView {
         adaptation: 0.0,
         white_xyz: [0.0; 3],
         curve: Curve::Linear,
+        half_saturation: 1.0,
+        false_colour: false,
     })
 }
 

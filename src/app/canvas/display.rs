@@ -1,6 +1,6 @@
 //! The picture on the screen: the film as a float texture, developed by the graphics card.
 //!
-//! Exposure, adaptation, curve, zoom and pan change a uniform and a table of a thousand points, so a view of any size
+//! Exposure, adaptation, curve, zoom and pan change a uniform and two rows of a thousand points, so a view of any size
 //! follows the slider at once and no ray is marched again. The film is uploaded whole, in one write.
 
 use eframe::egui_wgpu::wgpu;
@@ -22,7 +22,7 @@ pub struct Display {
 }
 
 /// Rows of four numbers in `View` of the shader: what a view fills, then what a mapping fills.
-const VIEW_ROWS: usize = 5;
+const VIEW_ROWS: usize = 11;
 const MAPPING_ROWS: usize = 2;
 const ROW_BYTES: usize = 16;
 
@@ -57,7 +57,7 @@ impl Display {
             mapped_at_creation: false,
         });
         let film = float_texture(device, "film", [1, 1]);
-        let curves = float_texture(device, "curves", [TABLE_LEN as u32, 1]);
+        let curves = float_texture(device, "curves", [TABLE_LEN as u32, 2]);
         let group = bind(device, &layout, &uniform, &film, &curves);
         let target_encodes = target.is_srgb();
         Self {
@@ -105,8 +105,16 @@ impl Display {
 
     /// Develops with this view from now on.
     pub fn set_view(&mut self, queue: &wgpu::Queue, view: &BakedView) {
-        let [mut r, g, b] = view.rgb_from_xyz.map(|[x, y, z]| [x, y, z, 0.0]);
-        r[3] = view.softness;
+        // Rows of a matrix, with a number behind each.
+        let rows = |[r, g, b]: [[f32; 3]; 3], w: [f32; 3]| {
+            let row = |[x, y, z]: [f32; 3], w| [x, y, z, w];
+            [row(r, w[0]), row(g, w[1]), row(b, w[2])]
+        };
+        let (outside, start) = view.paling.map_or((0.0, 0.0), |p| (p.outside, p.start));
+        let matrix = rows(view.rgb_from_xyz, [view.softness, outside, start]);
+        let road = f32::from(view.road as u8);
+        let hue = rows(view.hue.receptors_from_rgb, [road, view.exposure, 0.0]);
+        let back = rows(view.hue.rgb_from_receptors, view.hue.lightness);
         let [lr, lg, lb] = view.luminance;
         let last = (TABLE_LEN - 1) as f32;
         let stops = TABLE_LAST_STOP - TABLE_FIRST_STOP;
@@ -116,10 +124,22 @@ impl Display {
             last,
             f32::from(u8::from(self.target_encodes)),
         ];
-        let rows: [[f32; 4]; VIEW_ROWS] = [r, g, b, [lr, lg, lb, view.per_channel], table];
+        let luminance = [lr, lg, lb, view.per_channel];
+        let [x, y, z] = matrix;
+        let [long, middle, short] = hue;
+        let [red, green, blue] = back;
+        let rows: [[f32; 4]; VIEW_ROWS] = [
+            x, y, z, luminance, table, long, middle, short, red, green, blue,
+        ];
         queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&rows));
         let points = view.curve.iter().zip(&view.whiteness);
-        let points: Vec<[f32; 4]> = points.map(|(&y, &w)| [y, w, 0.0, 0.0]).collect();
+        let points = points.map(|(&y, &w)| [y, w, 0.0, 0.0]);
+        let colours = view.false_colour.iter().map(|&[r, g, b]| [r, g, b, 0.0]);
+        let missing = TABLE_LEN - view.false_colour.len();
+        let points: Vec<[f32; 4]> = points
+            .chain(colours)
+            .chain(std::iter::repeat_n([0.0; 4], missing))
+            .collect();
         write(queue, &self.curves, &points);
     }
 

@@ -2,13 +2,19 @@
 // steps of `BakedView::apply`, with the same numbers. Change both together; a test compares them.
 
 struct View {
-    // Rows of the matrix from XYZ to linear Rec. 709; w of the first is the softness of the fit into the triangle.
+    // Rows of the matrix from XYZ to linear Rec. 709; w: the softness of the fit into the triangle, how far outside is
+    // let be, and where paling starts (0: it does not).
     rgb_from_xyz: array<vec4<f32>, 3>,
     // Weights of Y; w is the share of the curve that is applied channel by channel.
     luminance: vec4<f32>,
     // log2 of the light at a table's first point, points for each stop, last point, 1 where the target encodes sRGB
     // itself.
     table: vec4<f32>,
+    // Rows of the matrix from linear Rec. 709 to the receptors of the hue; w of the first two: the road, as `Road` has
+    // it, and what Y is multiplied by for its false colour.
+    receptors_from_rgb: array<vec4<f32>, 3>,
+    // Rows of the matrix back; w: the weights of the lightness.
+    rgb_from_receptors: array<vec4<f32>, 3>,
     // Film pixels for one pixel of the canvas, and where on the film its upper left corner lies (yz).
     place: vec4<f32>,
     // Width and height of the canvas (xy).
@@ -18,7 +24,7 @@ struct View {
 @group(0) @binding(0) var<uniform> view: View;
 // XYZ of the film, and the stride of the pass that wrote the pixel.
 @group(0) @binding(1) var film: texture_2d<f32>;
-// One row: y in red, w in green.
+// First row: y in red, w in green; second row: false colours.
 @group(0) @binding(2) var curves: texture_2d<f32>;
 
 struct Corner {
@@ -34,18 +40,23 @@ fn corner(@builtin(vertex_index) index: u32) -> Corner {
     return Corner(position, place);
 }
 
-// Both tables at a light.
+// A row of tables at a position, in points from the first.
+fn tables(position: f32, row: i32) -> vec3<f32> {
+    let inside = min(position, view.table.z);
+    let left = min(i32(inside), i32(view.table.z) - 1);
+    let a = textureLoad(curves, vec2<i32>(left, row), 0).xyz;
+    let b = textureLoad(curves, vec2<i32>(left + 1, row), 0).xyz;
+    return mix(a, b, inside - f32(left));
+}
+
+// y and w at a light.
 fn looked_up(light: f32) -> vec2<f32> {
     let position = (log2(light) - view.table.x) * view.table.y;
     // Also true for a light of 0, whose logarithm is not a number everywhere.
     if !(position >= 0.0) || light <= 0.0 {
         return vec2<f32>(0.0);
     }
-    let inside = min(position, view.table.z);
-    let left = min(i32(inside), i32(view.table.z) - 1);
-    let a = textureLoad(curves, vec2<i32>(left, 0), 0).xy;
-    let b = textureLoad(curves, vec2<i32>(left + 1, 0), 0).xy;
-    return mix(a, b, inside - f32(left));
+    return tables(position, 0).xy;
 }
 
 // Compilers may assume that numbers are finite, so the bits decide.
@@ -81,18 +92,121 @@ fn without_negatives(rgb: vec3<f32>) -> vec3<f32> {
     return positive * (y / y_positive);
 }
 
-fn shown(xyz: vec3<f32>) -> vec3<f32> {
-    // Expose and adapt.
-    let seen = vec3<f32>(
-        dot(view.rgb_from_xyz[0].xyz, xyz),
-        dot(view.rgb_from_xyz[1].xyz, xyz),
-        dot(view.rgb_from_xyz[2].xyz, xyz),
+// A colour as lightness (w) and what sets it apart from grey.
+fn apart(rgb: vec3<f32>) -> vec4<f32> {
+    let response = vec3<f32>(
+        dot(view.receptors_from_rgb[0].xyz, rgb),
+        dot(view.receptors_from_rgb[1].xyz, rgb),
+        dot(view.receptors_from_rgb[2].xyz, rgb),
     );
-    if !(is_finite(seen.r) && is_finite(seen.g) && is_finite(seen.b)) {
-        return vec3<f32>(0.0);
+    let largest = max(response.r, max(response.g, response.b));
+    // No eye sees it: lightness 0.
+    if largest <= 0.0 {
+        return vec4<f32>(0.0);
     }
+    let compressed = pow(max(response, vec3<f32>(0.01 * largest)), vec3<f32>(1.0 / 3.0));
+    let weights = vec3<f32>(
+        view.rgb_from_receptors[0].w,
+        view.rgb_from_receptors[1].w,
+        view.rgb_from_receptors[2].w,
+    );
+    let lightness = dot(weights, compressed);
+    return vec4<f32>(compressed - lightness, lightness);
+}
+
+// The colour of what was taken apart.
+fn together(parts: vec4<f32>) -> vec3<f32> {
+    let q = parts.xyz + parts.w;
+    let response = q * q * q;
+    return vec3<f32>(
+        dot(view.rgb_from_receptors[0].xyz, response),
+        dot(view.rgb_from_receptors[1].xyz, response),
+        dot(view.rgb_from_receptors[2].xyz, response),
+    );
+}
+
+fn cubic(c: vec4<f32>, k: f32) -> f32 {
+    return ((c.w * k + c.z) * k + c.y) * k + c.x;
+}
+
+// The k up to `furthest` at which a bound is met.
+fn reach(parts: vec4<f32>, bound: vec3<f32>, outside: f32, furthest: f32) -> f32 {
+    let l = parts.w;
+    let d = parts.xyz;
+    let c = vec4<f32>(
+        outside + l * l * l * dot(bound, vec3<f32>(1.0)),
+        3.0 * l * l * dot(bound, d),
+        3.0 * l * dot(bound, d * d),
+        dot(bound, d * d * d),
+    );
+    if cubic(c, furthest) >= 0.0 {
+        return furthest;
+    }
+    var low = 0.0;
+    var high = furthest;
+    for (var i = 0; i < 10; i++) {
+        let middle = 0.5 * (low + high);
+        if cubic(c, middle) < 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    let above = max(cubic(c, low), 0.0);
+    return low + (high - low) * above / (above - cubic(c, high));
+}
+
+// The share of colour that keeps three bounds.
+fn kept(parts: vec4<f32>, bounds: mat3x3<f32>, outside: f32) -> f32 {
+    let start = view.rgb_from_xyz[2].w;
+    let furthest = 1.0 / start;
+    let nearest = min(
+        reach(parts, bounds[0], outside, furthest),
+        min(reach(parts, bounds[1], outside, furthest), reach(parts, bounds[2], outside, furthest)),
+    );
+    if nearest >= furthest {
+        return 1.0;
+    }
+    let left = 1.0 - start * nearest;
+    return nearest * (start + (1.0 - start) * left / (left + (1.0 - start) * nearest));
+}
+
+// The colour in units of its largest channel, taken apart and paled until the display can show it, or nearly. Lightness
+// 0 where there is no light. The share that was kept goes along.
+struct Nearer {
+    parts: vec4<f32>,
+    kept: f32,
+}
+
+fn nearer_grey(rgb: vec3<f32>) -> Nearer {
+    if dot(view.luminance.xyz, rgb) <= 0.0 {
+        return Nearer(vec4<f32>(0.0), 1.0);
+    }
+    let parts = apart(rgb / max(rgb.r, max(rgb.g, rgb.b)));
+    if parts.w <= 0.0 {
+        return Nearer(vec4<f32>(0.0), 1.0);
+    }
+    // Columns of a matrix here are the rows of ours.
+    let bounds = mat3x3<f32>(
+        view.rgb_from_receptors[0].xyz,
+        view.rgb_from_receptors[1].xyz,
+        view.rgb_from_receptors[2].xyz,
+    );
+    let share = kept(parts, bounds, view.rgb_from_xyz[1].w);
+    return Nearer(vec4<f32>(parts.xyz * share, parts.w), share);
+}
+
+fn by_channels(seen: vec3<f32>) -> vec3<f32> {
     // Fit into the triangle of the display.
-    let rgb = without_negatives(seen);
+    var near = seen;
+    if view.rgb_from_xyz[2].w > 0.0 {
+        let nearer = nearer_grey(seen);
+        if nearer.kept < 1.0 {
+            let pale = together(nearer.parts);
+            near = pale * (dot(view.luminance.xyz, seen) / dot(view.luminance.xyz, pale));
+        }
+    }
+    let rgb = without_negatives(near);
     let brightest = max(rgb.r, max(rgb.g, rgb.b));
     if brightest <= 0.0 {
         return vec3<f32>(0.0);
@@ -103,6 +217,71 @@ fn shown(xyz: vec3<f32>) -> vec3<f32> {
     let own = vec3<f32>(looked_up(rgb.r).x, looked_up(rgb.g).x, looked_up(rgb.b).x);
     let mixed = mix(kept, own, view.luminance.w);
     return mix(mixed, vec3<f32>(top.x), top.y);
+}
+
+fn by_hue(seen: vec3<f32>, of_luminance: bool) -> vec3<f32> {
+    // Fit into the triangle of the display.
+    let nearer = nearer_grey(seen);
+    if nearer.parts.w <= 0.0 {
+        return vec3<f32>(0.0);
+    }
+    let inside = max(together(nearer.parts), vec3<f32>(0.0));
+    let y = dot(view.luminance.xyz, seen);
+    var light = y;
+    if !of_luminance {
+        light = max(inside.r, max(inside.g, inside.b)) / dot(view.luminance.xyz, inside) * y;
+    }
+    // Shoulder and path to white; then what is still too bright for its colour.
+    let top = looked_up(light);
+    var parts = vec4<f32>(nearer.parts.xyz * (1.0 - top.y), nearer.parts.w);
+    if of_luminance {
+        let r = view.rgb_from_receptors[0].xyz;
+        let g = view.rgb_from_receptors[1].xyz;
+        let b = view.rgb_from_receptors[2].xyz;
+        let weights = view.luminance.x * r + view.luminance.y * g + view.luminance.z * b;
+        let bounds = mat3x3<f32>(weights - top.x * r, weights - top.x * g, weights - top.x * b);
+        parts = vec4<f32>(parts.xyz * kept(parts, bounds, 0.0), parts.w);
+    }
+    let pale = max(together(parts), vec3<f32>(0.0));
+    var measure = max(pale.r, max(pale.g, pale.b));
+    if of_luminance {
+        measure = dot(view.luminance.xyz, pale);
+    }
+    return min(pale * (top.x / measure), vec3<f32>(1.0));
+}
+
+// The colour of a light's stop.
+fn by_stops(light: f32) -> vec3<f32> {
+    let position = (log2(max(light, exp2(view.table.x))) - view.table.x) * view.table.y;
+    return tables(max(position, 0.0), 1);
+}
+
+fn shown(xyz: vec3<f32>) -> vec3<f32> {
+    // Expose and adapt.
+    var seen = vec3<f32>(
+        dot(view.rgb_from_xyz[0].xyz, xyz),
+        dot(view.rgb_from_xyz[1].xyz, xyz),
+        dot(view.rgb_from_xyz[2].xyz, xyz),
+    );
+    var y = xyz.y;
+    if !(is_finite(seen.r) && is_finite(seen.g) && is_finite(seen.b)) {
+        seen = vec3<f32>(0.0);
+        y = 0.0;
+    }
+    switch i32(view.receptors_from_rgb[0].w) {
+        case 1: {
+            return by_hue(seen, false);
+        }
+        case 2: {
+            return by_hue(seen, true);
+        }
+        case 3: {
+            return by_stops(view.receptors_from_rgb[1].w * y);
+        }
+        default: {
+            return by_channels(seen);
+        }
+    }
 }
 
 fn srgb_encoded(linear: vec3<f32>) -> vec3<f32> {

@@ -1,11 +1,11 @@
-//! What lies over the picture: what went wrong, and where dropped files will land.
+//! What lies over the picture: what its colours mean, what went wrong, and where dropped files will land.
 
 use egui::{
     Align2, Area, Color32, FontId, Frame, Id, LayerId, Modal, Order, Rect, RichText, Stroke,
     StrokeKind, Ui, vec2,
 };
 
-use super::Command;
+use super::{Command, legend};
 use crate::app::theme::ERROR;
 use crate::app::{App, Closing};
 use crate::project::Darkness;
@@ -15,8 +15,11 @@ const LINE: f32 = 30.0;
 /// Widest note in points.
 const NOTE_WIDTH: f32 = 520.0;
 
-/// Draws notes in the corner of the picture, and the drop target while files hover.
+/// Draws the legend of false colours, notes in the corner of the picture, and the drop target while files hover.
 pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
+    if app.view().false_colour && app.document.metering.is_some() {
+        legend::show(ui, &app.view(), canvas);
+    }
     notes(ui, app, canvas, commands);
     if app.closing == Closing::Asked {
         ask_before_closing(ui, commands);

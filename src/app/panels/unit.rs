@@ -106,6 +106,28 @@ pub(super) const KELVIN: Unit = Unit {
     example: "300 K or 27 °C",
 };
 
+/// Temperatures of whites.
+pub(super) const WHITE_KELVIN: Unit = Unit {
+    example: "2856 K",
+    ..KELVIN
+};
+
+/// Luminances.
+pub(super) const LUMINANCE: Unit = Unit {
+    name: "cd/m²",
+    one: None,
+    shown: 1.0,
+    decimals: 0,
+    also: &[
+        ("cd/m2", same),
+        ("cd", same),
+        ("nit", same),
+        ("nits", same),
+        ("kcd/m²", |n| 1e3 * n),
+    ],
+    example: "20000 cd/m²",
+};
+
 /// Kelvin for one unit of a file.
 pub(super) const KELVIN_PER_UNIT: Unit = Unit {
     name: "K/unit",

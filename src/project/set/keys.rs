@@ -229,12 +229,27 @@ pub const KEYS: &[Key] = &[
     key(
         "view.adaptation",
         "a number, 0 to 1",
-        "how far the eye has adapted to the fire's white",
+        "how far the eye has adapted to the white",
+    ),
+    key(
+        "view.white_k",
+        "a number of K, 1000 to 20000",
+        "the black body that is white; measured from the scene if not set",
     ),
     key(
         "view.curve",
-        "filmic or linear",
+        "photographic, filmic, eye or linear",
         "how light becomes display values",
+    ),
+    key(
+        "view.half_saturation_cd_m2",
+        "a number of cd/m², 0.001 to 1000000000",
+        "what the eye's curve shows at half; follows the exposure if not set",
+    ),
+    key(
+        "view.false_colour",
+        "true or false",
+        "each stop of luminance in a colour of its own",
     ),
 ];
 
