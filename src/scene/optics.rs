@@ -1,0 +1,104 @@
+//! What a place in the fire does to light of a narrow band: the coefficients of the equation of transfer.
+//!
+//! The command `spectrum` and the window's plots read this, and pictures are held to it: what is said here of a place
+//! is what the march does there.
+
+use super::flame::FlameParams;
+use crate::physics::blackbody;
+use crate::physics::soot::{self, SootLaw};
+
+/// What is at a place of the fire.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Local {
+    /// Soot volume fraction of the field, before the amounts and the radius of the parameters, 0 to 1.
+    pub soot_volume_fraction: f64,
+    /// Temperature, K, at least 0.
+    pub temperature_k: f64,
+    /// Progress of the reaction, 0 to 1.
+    pub flame: f64,
+}
+
+/// Means over a band of wavelengths.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Coefficients {
+    /// Emission coefficient j, W m⁻³ sr⁻¹ nm⁻¹.
+    pub emission: f64,
+    /// Absorption coefficient σ_a, 1/m.
+    pub absorption: f64,
+    /// Scattering coefficient σ_s, 1/m.
+    pub scattering: f64,
+}
+
+/// The optics of a fire, wherever it is looked at.
+#[derive(Debug, Clone)]
+pub struct Optics {
+    soot: SootLaw,
+    radius_m: f64,
+    /// Multiplies the field's soot: amount and radius.
+    volume_fraction_factor: f64,
+}
+
+impl Optics {
+    /// The optics of these parameters. The amount that counts is the soot's.
+    pub fn new(params: &FlameParams) -> Self {
+        Self {
+            soot: SootLaw::new(params.soot_model, params.fuel.soot_index()),
+            radius_m: params.soot_radius_nm * METRES_PER_NM,
+            volume_fraction_factor: params.soot_amount
+                * soot::volume_fraction_factor(params.soot_hold, params.soot_radius_nm),
+        }
+    }
+
+    /// Soot volume fraction that a place of the field comes to, with amount and radius: what the laws see.
+    pub fn soot_volume_fraction(&self, local: &Local) -> f64 {
+        self.volume_fraction_factor * local.soot_volume_fraction
+    }
+
+    /// The mean coefficients of a place over the band `[from, to)`, nm.
+    ///
+    /// Preconditions: 0 < from < to, both finite; `local` within its ranges.
+    pub fn coefficients(&self, band_nm: [f64; 2], local: &Local) -> Coefficients {
+        let [from, to] = band_nm;
+        debug_assert!(0.0 < from && from < to, "{from} to {to} nm");
+        let mut mean = Coefficients::default();
+        for (lambda_nm, weight) in continuum_nodes(band_nm) {
+            let soot = self.soot_at(lambda_nm, local);
+            mean.emission += weight * soot.emission;
+            mean.absorption += weight * soot.absorption;
+            mean.scattering += weight * soot.scattering;
+        }
+        mean
+    }
+
+    /// What soot does at one wavelength.
+    fn soot_at(&self, lambda_nm: f64, local: &Local) -> Coefficients {
+        let absorption =
+            self.soot_volume_fraction(local) * self.soot.absorption_per_volume_fraction(lambda_nm);
+        Coefficients {
+            emission: absorption * blackbody::spectral_radiance(lambda_nm, local.temperature_k),
+            absorption,
+            scattering: absorption * self.soot.scattering_ratio(lambda_nm, self.radius_m),
+        }
+    }
+}
+
+/// Wavelengths and weights that average a smooth spectrum over a band: panels of at most [`PANEL_NM`], each by Gauss's
+/// two points, exact for cubics.
+fn continuum_nodes([from, to]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
+    let panels = ((to - from) / PANEL_NM).ceil().max(1.0);
+    let width = (to - from) / panels;
+    (0..panels as u32).flat_map(move |panel| {
+        let middle = from + width * (f64::from(panel) + 0.5);
+        let reach = 0.5 * width / 3.0_f64.sqrt();
+        [middle - reach, middle + reach].map(|nm| (nm, 0.5 / panels))
+    })
+}
+
+/// Longest panel of a mean over a smooth spectrum, nm: Planck's law at 800 K bends by a factor of e in 10 nm.
+const PANEL_NM: f64 = 2.0;
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+}
