@@ -82,6 +82,8 @@ struct Shared {
     waiting: Mutex<Option<(Generation, Job, Instant)>>,
     arrived: Condvar,
     outbox: Mutex<Vec<Update>>,
+    /// The scene of the running or last job, once it is packed.
+    packed: Mutex<Option<(Generation, Scene)>>,
     wake: Box<dyn Fn() + Send + Sync>,
 }
 
@@ -108,6 +110,7 @@ impl Engine {
             waiting: Mutex::new(None),
             arrived: Condvar::new(),
             outbox: Mutex::new(Vec::new()),
+            packed: Mutex::new(None),
             wake,
         });
         let thread = std::thread::Builder::new()
@@ -155,6 +158,18 @@ impl Engine {
             Err(TryLockError::WouldBlock) => Vec::new(),
         }
     }
+
+    /// The packed scene of the job submitted last, cheap to have. `None` while that is being packed, after a failure, and
+    /// (for it never waits) if a worker is publishing one at this very moment.
+    pub fn scene(&self) -> Option<(Generation, Scene)> {
+        let packed = match self.shared.packed.try_lock() {
+            Ok(packed) => packed.clone(),
+            Err(TryLockError::Poisoned(packed)) => packed.into_inner().clone(),
+            Err(TryLockError::WouldBlock) => None,
+        };
+        let current = Generation(self.shared.current.load(Ordering::SeqCst));
+        packed.filter(|(generation, _)| *generation == current)
+    }
 }
 
 impl Drop for Engine {
@@ -192,6 +207,7 @@ impl Shared {
                 Ok(scene) => before = Some(scene),
                 Err(panic) => {
                     before = None;
+                    *lock(&self.packed) = None;
                     self.publish(generation, News::Failed(words_of(panic.as_ref())));
                 }
             }
@@ -226,6 +242,9 @@ impl Shared {
         let cancel = Cancel::when_passed(Arc::clone(&self.current), generation.0);
         let begun = Instant::now();
         let scene = job.scene(before);
+        let replaced = lock(&self.packed).replace((generation, scene.clone()));
+        // What may be the last of an old volume is freed outside the lock.
+        drop(replaced);
         let plan = Plan::new(&scene, &job.settings);
         let passes = pass::ladder(&job.settings, pass::Audience::Window);
         let started = News::Started {

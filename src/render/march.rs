@@ -65,22 +65,9 @@ impl<'a> Marcher<'a> {
     /// what they leave on the film and how many samples of the medium were taken.
     pub fn march(&self, points: &[Option<[f64; 2]>; LANES]) -> ([Pixel; LANES], u64) {
         let mut pixels = [Pixel::default(); LANES];
-        let chords: [Option<Chord>; LANES] = std::array::from_fn(|lane| {
-            points[lane]
-                .and_then(|[x, y]| Chord::new(self.medium, &self.view.ray(x, y), self.step_m))
-        });
-        if chords.iter().all(Option::is_none) {
+        let Some(light) = self.follow(points) else {
             return (pixels, 0);
-        }
-        let packet = Packet::new(&chords);
-        let work = March {
-            medium: self.medium,
-            nodes: &self.plan.nodes,
-            opaque: self.plan.opaque_column_m,
-            step_m: self.step_m as f32,
-            packet,
         };
-        let light = lanes::dispatch(work);
 
         // The spectrum becomes three numbers here, in f64: the fitted weights have both signs.
         let nodes = &self.plan.nodes;
@@ -96,6 +83,40 @@ impl<'a> Marcher<'a> {
             pixel.opacity = self.plan.wavelengths.opacity_of(opacity).map(|v| v as f32);
         }
         (pixels, light.samples)
+    }
+
+    /// Follows the ray through one point of the picture and keeps its spectrum: radiance at each of the plan's nodes,
+    /// W m⁻² sr⁻¹ nm⁻¹.
+    pub fn radiance(&self, point: [f64; 2]) -> Vec<f64> {
+        let mut points = [None; LANES];
+        points[0] = Some(point);
+        let light = self.follow(&points);
+        let node = |n| {
+            light
+                .as_ref()
+                .map_or(0.0, |light| f64::from(light.radiance[n][0]))
+        };
+        (0..self.plan.nodes.len()).map(node).collect()
+    }
+
+    /// What the rays through these points bring home; `None` if none of them meets soot.
+    fn follow(&self, points: &[Option<[f64; 2]>; LANES]) -> Option<Light> {
+        let chords: [Option<Chord>; LANES] = std::array::from_fn(|lane| {
+            points[lane]
+                .and_then(|[x, y]| Chord::new(self.medium, &self.view.ray(x, y), self.step_m))
+        });
+        if chords.iter().all(Option::is_none) {
+            return None;
+        }
+        let packet = Packet::new(&chords);
+        let work = March {
+            medium: self.medium,
+            nodes: &self.plan.nodes,
+            opaque: self.plan.opaque_column_m,
+            step_m: self.step_m as f32,
+            packet,
+        };
+        Some(lanes::dispatch(work))
     }
 }
 

@@ -1,5 +1,15 @@
 //! The air around a fire.
 
+use super::fuel::Fuel;
+use crate::physics::hot_gas::FireGas;
+use crate::physics::moist_air::{AirError, Ambient, STANDARD_PRESSURE_PA};
+
+/// Temperature at which gas counts as burnt wholly, K: propane's adiabatic flame in air (2267 K), between those of
+/// methane (2226 K) and wood gas. Cooler gas of a flame is taken to be products that air was mixed into.
+///
+/// Source: S. R. Turns, *An Introduction to Combustion* (2000), table B.1.
+const FLAME_TEMPERATURE_K: f64 = 2267.0;
+
 /// What the air is like, far from the flame.
 ///
 /// Its temperature is that of gas for which a volume has no temperature. Humidity and carbon dioxide change only its
@@ -23,5 +33,31 @@ impl Default for Air {
             humidity: 0.5,
             co2_ppm: 420.0,
         }
+    }
+}
+
+impl Air {
+    /// Pressure of the air, Pa: that of the standard atmosphere.
+    pub const PRESSURE_PA: f64 = STANDARD_PRESSURE_PA;
+
+    /// How the gas of a fire in this air bends light.
+    ///
+    /// # Errors
+    /// [`AirError`]: a number is out of range, or the air cannot hold so much water.
+    pub fn gas(&self, fuel: Fuel) -> Result<FireGas, AirError> {
+        let ambient = Ambient {
+            temperature_k: self.temperature_k,
+            pressure_pa: Self::PRESSURE_PA,
+            humidity: self.humidity,
+            co2_ppm: self.co2_ppm,
+        };
+        FireGas::new(&ambient, fuel.atoms())
+    }
+
+    /// Which share of the gas has burnt where it is so hot: all of it at 2267 K, nothing at the air's own temperature;
+    /// between, hot products and cold air are mixed until they are as warm as that.
+    pub fn products_share(&self, temperature_k: f64) -> f64 {
+        let heated = temperature_k - self.temperature_k;
+        (heated / (FLAME_TEMPERATURE_K - self.temperature_k)).clamp(0.0, 1.0)
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::physics::hot_gas::Atoms;
 use crate::physics::soot_index::SootIndex;
 
 /// A fuel that burns with soot.
@@ -32,6 +33,19 @@ impl Fuel {
         match self {
             Self::Propane => SootIndex::Propane,
             Self::Acetylene => SootIndex::Acetylene,
+        }
+    }
+
+    /// What its molecule is made of; `None` for what is no substance.
+    pub fn atoms(self) -> Option<Atoms> {
+        let hydrocarbon = |carbon, hydrogen| Atoms {
+            carbon,
+            hydrogen,
+            oxygen: 0.0,
+        };
+        match self {
+            Self::Propane => Some(hydrocarbon(3.0, 8.0)),
+            Self::Acetylene => Some(hydrocarbon(2.0, 2.0)),
         }
     }
 }

@@ -7,10 +7,12 @@
 mod air;
 pub mod camera;
 mod camera_moves;
+pub mod curves;
 mod fit;
 pub mod flame;
 pub mod fuel;
 pub mod medium;
+pub mod optics;
 mod packing;
 pub mod quadrature;
 mod source;
@@ -20,6 +22,7 @@ pub use camera::Camera;
 pub use flame::{Flame, FlameParams, Placement};
 pub use fuel::Fuel;
 pub use medium::Medium;
+pub use optics::{Coefficients, Local, Optics};
 pub use packing::PackingError;
 pub use quadrature::WavelengthSet;
 

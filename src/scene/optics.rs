@@ -5,6 +5,7 @@
 
 use super::flame::FlameParams;
 use crate::physics::blackbody;
+use crate::physics::constants::METRES_PER_NM;
 use crate::physics::soot::{self, SootLaw};
 
 /// What is at a place of the fire.
@@ -82,6 +83,9 @@ impl Optics {
     }
 }
 
+/// Longest panel of a mean over a smooth spectrum, nm: Planck's law at 800 K changes by a factor of e in 10 nm.
+const PANEL_NM: f64 = 2.0;
+
 /// Wavelengths and weights that average a smooth spectrum over a band: panels of at most [`PANEL_NM`], each by Gauss's
 /// two points, exact for cubics.
 fn continuum_nodes([from, to]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
@@ -94,11 +98,106 @@ fn continuum_nodes([from, to]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// Longest panel of a mean over a smooth spectrum, nm: Planck's law at 800 K bends by a factor of e in 10 nm.
-const PANEL_NM: f64 = 2.0;
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use std::sync::Arc;
+
     use super::*;
+    use crate::physics::soot::{Hold, SootModel};
+    use crate::scene::{Air, Flame, Fuel, Placement};
+    use crate::volume::{self, Producer, procedural};
+
+    fn params() -> FlameParams {
+        let volume = procedural::torch();
+        let preset = volume::preset(Producer::Physical, &volume);
+        FlameParams {
+            maps: preset.maps,
+            placement: Placement {
+                up: preset.up,
+                metres_per_unit: 1.0,
+            },
+            fuel: Fuel::Acetylene,
+            soot_model: SootModel::DalzellSarofim,
+            soot_radius_nm: 30.0,
+            soot_hold: Hold::Number,
+            soot_amount: 2.5,
+            smoke_amount: 1.0,
+            air: Air::default(),
+        }
+    }
+
+    const PLACE: Local = Local {
+        soot_volume_fraction: 1e-6,
+        temperature_k: 1800.0,
+        flame: 0.0,
+    };
+
+    fn narrow(lambda_nm: f64) -> [f64; 2] {
+        [lambda_nm - 1e-3, lambda_nm + 1e-3]
+    }
+
+    #[test]
+    fn a_place_absorbs_as_the_march_says_it_does() {
+        let params = params();
+        let flame = Flame::new(&Arc::new(procedural::torch()), &params, None);
+        for lambda_nm in [400.0, 480.0, 550.0, 700.0] {
+            let got = Optics::new(&params).coefficients(narrow(lambda_nm), &PLACE);
+            let expected = 1e-6 * flame.absorption_per_sample(lambda_nm);
+            assert!((got.absorption / expected - 1.0).abs() < 1e-6, "{got:?}");
+            let planck = blackbody::spectral_radiance(lambda_nm, 1800.0);
+            assert!((got.emission / (expected * planck) - 1.0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_radius_sets_the_scattering_whatever_is_held() {
+        let ratio = |soot_hold, soot_radius_nm| {
+            let params = FlameParams {
+                soot_hold,
+                soot_radius_nm,
+                ..params()
+            };
+            let at = Optics::new(&params).coefficients(narrow(550.0), &PLACE);
+            at.scattering / at.absorption
+        };
+        for hold in [Hold::Number, Hold::Volume] {
+            assert!((ratio(hold, 40.0) / ratio(hold, 20.0) - 8.0).abs() < 1e-9);
+        }
+        assert!((5e-3..2e-2).contains(&ratio(Hold::Volume, 21.0)));
+    }
+
+    #[test]
+    fn the_mean_of_a_band_is_that_of_its_parts() {
+        let optics = Optics::new(&params());
+        for temperature_k in [600.0, 1200.0, 2400.0] {
+            let local = Local {
+                temperature_k,
+                ..PLACE
+            };
+            let whole = optics.coefficients([500.0, 540.0], &local);
+            let parts: Vec<Coefficients> = (0..400)
+                .map(|i| 500.0 + 0.1 * f64::from(i))
+                .map(|nm| optics.coefficients([nm, nm + 0.1], &local))
+                .collect();
+            let mean = |of: fn(&Coefficients) -> f64| parts.iter().map(of).sum::<f64>() / 400.0;
+            for (got, expected) in [
+                (whole.emission, mean(|it| it.emission)),
+                (whole.absorption, mean(|it| it.absorption)),
+                (whole.scattering, mean(|it| it.scattering)),
+            ] {
+                assert!((got / expected - 1.0).abs() < 1e-5, "{temperature_k} K");
+            }
+        }
+    }
+
+    #[test]
+    fn without_soot_there_is_nothing() {
+        let none = Local {
+            soot_volume_fraction: 0.0,
+            ..PLACE
+        };
+        let got = Optics::new(&params()).coefficients([380.0, 780.0], &none);
+        assert_eq!(got, Coefficients::default());
+    }
 }
