@@ -88,16 +88,21 @@ pub(super) struct SpectrumArgs {
     #[arg(short, long, value_name = "OUT.csv")]
     pub(super) output: Option<PathBuf>,
     /// Temperature of the place in kelvin.
-    #[arg(long, value_name = "K")]
+    #[arg(long, allow_negative_numbers = true, value_name = "K")]
     pub(super) temperature: Option<f64>,
     /// Soot volume fraction of the place, before soot.amount and the radius multiply it.
-    #[arg(long, value_name = "F_V")]
+    #[arg(long, allow_negative_numbers = true, value_name = "F_V")]
     pub(super) soot: Option<f64>,
     /// Progress of the reaction at the place, 0 to 1: what glows without soot.
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, allow_negative_numbers = true, value_name = "SHARE")]
     pub(super) flame: Option<f64>,
     /// Distance of two wavelengths in nm; each row is the mean over so much.
-    #[arg(long, value_name = "NM", default_value_t = 1.0)]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "NM",
+        default_value_t = 1.0
+    )]
     pub(super) step: f64,
     /// First and last wavelength in nm.
     #[arg(long, value_name = "A-B", default_value = "380-780", value_parser = range)]

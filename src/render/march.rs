@@ -90,13 +90,11 @@ impl<'a> Marcher<'a> {
     pub fn radiance(&self, point: [f64; 2]) -> Vec<f64> {
         let mut points = [None; LANES];
         points[0] = Some(point);
-        let light = self.follow(&points);
-        let node = |n| {
-            light
-                .as_ref()
-                .map_or(0.0, |light| f64::from(light.radiance[n][0]))
+        let Some(light) = self.follow(&points) else {
+            return vec![0.0; self.plan.nodes.len()];
         };
-        (0..self.plan.nodes.len()).map(node).collect()
+        let nodes = light.radiance.iter().take(self.plan.nodes.len());
+        nodes.map(|node| f64::from(node[0])).collect()
     }
 
     /// What the rays through these points bring home; `None` if none of them meets soot.
