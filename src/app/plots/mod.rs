@@ -7,7 +7,7 @@ mod chart;
 mod optics;
 mod pixel;
 
-use egui::{Align2, Context, ScrollArea, Ui, Window, vec2};
+use egui::{Context, ScrollArea, Ui, Window, vec2};
 
 use self::optics::OpticsPlots;
 use self::pixel::PixelPlot;
@@ -75,8 +75,8 @@ impl Plots {
         Window::new("Spectrum")
             .open(&mut open)
             .collapsible(false)
-            .pivot(Align2::LEFT_BOTTOM)
-            .default_pos(place.canvas.left_bottom() + vec2(GAP, -GAP))
+            // It grows downwards: the tabs stay under the pointer that has chosen one.
+            .default_pos(place.canvas.min + vec2(GAP, GAP))
             .auto_sized()
             .show(ctx, |ui| {
                 ScrollArea::vertical()

@@ -3,7 +3,7 @@
 use egui::{RichText, Slider, Ui};
 use egui_plot::LineStyle;
 
-use super::chart::{Chart, Curve, VISIBLE_NM};
+use super::chart::{Axis, Chart, Curve, VISIBLE_NM};
 use crate::app::theme::{IDLE, WARNING};
 use crate::project::Job;
 use crate::scene::curves::{Bands, Curves, Row, peak_of};
@@ -12,7 +12,7 @@ use crate::scene::{FlameParams, Local};
 /// Distance of the curves' points, nm.
 const STEP_NM: f64 = 1.0;
 /// Height of a chart in points.
-const HEIGHT: f32 = 132.0;
+const HEIGHT: f32 = 140.0;
 /// What the sliders span: kelvin, and soot volume fraction.
 const TEMPERATURES_K: [f64; 2] = [300.0, 3000.0];
 const SOOT: [f64; 2] = [1e-9, 1e-4];
@@ -53,7 +53,13 @@ impl OpticsPlots {
         let curve = |name, style, value: fn(&Row) -> f64| Curve {
             name,
             points: rows.iter().map(|row| [row.lambda_nm, value(row)]).collect(),
+            faint: style != LineStyle::Solid,
             style,
+        };
+        let emission = if self.logarithmic {
+            Axis::Logarithmic
+        } else {
+            Axis::FromZero
         };
         for chart in [
             Chart {
@@ -63,7 +69,7 @@ impl OpticsPlots {
                     row.coefficients.emission
                 })],
                 height: HEIGHT,
-                logarithmic: self.logarithmic,
+                division: emission,
                 in_colour: (!self.logarithmic).then_some(STEP_NM),
             },
             Chart {
@@ -78,7 +84,7 @@ impl OpticsPlots {
                     }),
                 ],
                 height: HEIGHT,
-                logarithmic: self.logarithmic,
+                division: Axis::Logarithmic,
                 in_colour: None,
             },
             Chart {
@@ -88,7 +94,7 @@ impl OpticsPlots {
                     row.n_minus_1 / MILLIONTH
                 })],
                 height: HEIGHT,
-                logarithmic: false,
+                division: Axis::Close,
                 in_colour: None,
             },
         ] {
@@ -123,8 +129,8 @@ impl OpticsPlots {
             self.chosen = Some(place);
         }
         ui.horizontal(|ui| {
-            ui.checkbox(&mut self.logarithmic, "Logarithmic")
-                .on_hover_text("Equal steps of the axis are equal factors: lines and faint scattering are seen beside soot.");
+            ui.checkbox(&mut self.logarithmic, "Logarithmic emission")
+                .on_hover_text("Equal steps of the axis are equal factors: faint bands are seen beside bright soot.");
             if self.chosen.is_some() {
                 let back = ui.small_button("Back to the fire's");
                 if back.on_hover_text("The hottest gas and the densest soot of this fire.").clicked() {

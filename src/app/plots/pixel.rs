@@ -3,13 +3,14 @@
 use egui::{Color32, Context, LayerId, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
 use egui_plot::LineStyle;
 
-use super::chart::{Chart, Curve};
+use super::chart::{Axis, Chart, Curve};
 use crate::app::canvas::PicturePlace;
 use crate::app::panels::short;
 use crate::app::theme::IDLE;
 use crate::colour::display::{BakedView, View};
 use crate::engine::{Engine, Generation, Packed};
 use crate::render::Probe;
+use crate::render::develop::can_be_seen;
 
 /// Height of the chart in points.
 const HEIGHT: f32 = 210.0;
@@ -39,43 +40,28 @@ impl PixelPlot {
         self.follow(place);
         self.read(engine);
         let reading = self.reading.as_ref();
-        ui.horizontal(|ui| {
-            let words = reading.map_or_else(
-                || "Point at the picture".to_owned(),
-                |Reading { pixel: [x, y], .. }| format!("Pixel {x}, {y}"),
-            );
-            ui.label(words);
-            if self.kept {
-                let button = ui.small_button("Follow the pointer");
-                let tip = "Let the pixel go that a click has kept.";
-                self.kept = !button.on_hover_text(tip).clicked();
-            } else {
-                ui.label(RichText::new("a click on the picture keeps it").color(IDLE));
-            }
-        });
-        let Some(Reading { probe, .. }) = reading else {
-            return;
-        };
+        self.kept &= !heading(ui, reading, self.kept);
+        let probe = reading.map(|reading| &reading.probe);
         ui.horizontal(|ui| {
             swatch(ui, probe, view);
-            ui.label(words_of(probe));
+            ui.label(probe.map_or_else(String::new, words_of));
         });
-        let width = probe
-            .spectrum
-            .first()
-            .zip(probe.spectrum.get(1))
-            .map(|(first, second)| second[0] - first[0]);
+        // What cannot be seen has no curve: its shape would be that of rounding.
+        let lit = probe.filter(|probe| can_be_seen(probe.xyz[1]));
+        let points = lit.map_or_else(Vec::new, |probe| probe.spectrum.clone());
+        let band = points.iter().zip(points.iter().skip(1)).next();
         Chart {
             label: "Spectral radiance of the pixel against wavelength",
-            axis: "W/(m² sr nm)",
+            axis: "radiance, W/(m² sr nm)",
+            height: HEIGHT,
+            division: Axis::FromZero,
+            in_colour: band.map(|(first, second)| second[0] - first[0]),
             curves: vec![Curve {
                 name: "Radiance",
-                points: probe.spectrum.clone(),
+                points,
                 style: LineStyle::Solid,
+                faint: false,
             }],
-            height: HEIGHT,
-            logarithmic: false,
-            in_colour: width,
         }
         .show(ui);
     }
@@ -139,11 +125,31 @@ impl PixelPlot {
     }
 }
 
+/// Which pixel it is, and whether it is kept. True if it shall be let go.
+fn heading(ui: &mut Ui, reading: Option<&Reading>, kept: bool) -> bool {
+    ui.horizontal(|ui| {
+        let words = reading.map_or_else(
+            || "Point at the picture".to_owned(),
+            |Reading { pixel: [x, y], .. }| format!("Pixel {x}, {y}"),
+        );
+        ui.label(words);
+        if kept {
+            let button = ui.small_button("Follow the pointer");
+            let tip = "Let the pixel go that a click has kept.";
+            button.on_hover_text(tip).clicked()
+        } else {
+            ui.label(RichText::new("a click on the picture keeps it").color(IDLE));
+            false
+        }
+    })
+    .inner
+}
+
 /// The pixel's colour as the picture shows it.
-fn swatch(ui: &mut Ui, probe: &Probe, view: &View) {
+fn swatch(ui: &mut Ui, probe: Option<&Probe>, view: &View) {
     let (rect, _) = ui.allocate_exact_size(vec2(22.0, 16.0), Sense::hover());
     let [red, green, blue] = BakedView::new(view)
-        .apply(probe.xyz.map(|v| v as f32))
+        .apply(probe.map_or([0.0; 3], |probe| probe.xyz.map(|v| v as f32)))
         .map(|v| (255.0 * v).round() as u8);
     ui.painter()
         .rect_filled(rect, 2.0, Color32::from_rgb(red, green, blue));
@@ -154,7 +160,8 @@ fn swatch(ui: &mut Ui, probe: &Probe, view: &View) {
 
 /// Brightness and colour in words.
 fn words_of(probe: &Probe) -> String {
-    let Some([x, y]) = probe.chromaticity() else {
+    let visible = can_be_seen(probe.xyz[1]);
+    let Some([x, y]) = probe.chromaticity().filter(|_| visible) else {
         return "0 cd/m², black".to_owned();
     };
     let mut words = format!("{} cd/m²   x {x:.3}  y {y:.3}", short(probe.luminance()));
