@@ -154,8 +154,8 @@ mod tests {
     fn the_radius_sets_the_scattering_whatever_is_held() {
         let ratio = |soot_hold, soot_radius_nm| {
             let params = FlameParams {
-                soot_hold,
                 soot_radius_nm,
+                soot_hold,
                 ..params()
             };
             let at = Optics::new(&params).coefficients(narrow(550.0), &PLACE);

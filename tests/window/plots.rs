@@ -171,6 +171,9 @@ fn fuel_and_air_are_plotted_at_a_place_that_can_be_chosen() {
     ] {
         harness.get_by_role_and_label(Role::Image, chart);
     }
+    for curve in ["Absorption", "Scattering"] {
+        harness.get_by_label(curve);
+    }
     harness.get_by_label("the hottest and densest of this fire");
     set_slider(&mut harness, "Temperature there", 1234.0);
     harness.get_by_label("Logarithmic emission").click();

@@ -1,10 +1,8 @@
 //! What all charts of the window have in common: wavelengths along the bottom, a unit up the side, and nothing that
 //! moves by accident.
 
-use egui::{Color32, RichText, Role, Ui, WidgetInfo, vec2};
-use egui_plot::{
-    Bar, BarChart, Corner, GridMark, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints,
-};
+use egui::{Color32, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui_plot::{Bar, BarChart, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoints};
 use glam::DVec3;
 
 use crate::app::panels::short;
@@ -18,9 +16,6 @@ pub(super) const VISIBLE_NM: [f64; 2] = [380.0, 780.0];
 /// How far a pure colour is moved towards white, of the way that would bring it within what a display has: all the way
 /// red would be pink, and without it green a plateau.
 const PALER: f64 = 0.3;
-
-/// Share of the chart's height that is left free above and below curves with a legend.
-const ROOM_FOR_LEGEND: f32 = 0.25;
 
 /// A curve against wavelength.
 pub(super) struct Curve<'a> {
@@ -43,6 +38,12 @@ pub(super) enum Axis {
     Logarithmic,
 }
 
+impl Curve<'_> {
+    fn colour(&self, strong: Color32) -> Color32 {
+        if self.faint { IDLE } else { strong }
+    }
+}
+
 /// Curves that share an axis.
 pub(super) struct Chart<'a> {
     /// What is drawn, told to those who cannot see it.
@@ -61,7 +62,9 @@ impl Chart<'_> {
     pub(super) fn show(self, ui: &mut Ui) {
         let logarithmic = self.division == Axis::Logarithmic;
         let value_of = move |y: f64| if logarithmic { 10_f64.powf(y) } else { y };
-        let has_legend = self.curves.len() > 1;
+        if self.curves.len() > 1 {
+            legend(ui, &self.curves);
+        }
         let is_empty = self.curves.iter().all(|curve| curve.points.is_empty());
         let told: Vec<(String, Vec<[f64; 2]>)> = self
             .curves
@@ -69,7 +72,8 @@ impl Chart<'_> {
             .map(|curve| (curve.name.to_owned(), curve.points.clone()))
             .collect();
         let words = RichText::new(self.axis).small().color(IDLE);
-        let mut plot = Plot::new(self.label)
+        // What an empty chart shows must not stay when there is a curve.
+        let mut plot = Plot::new((self.label, is_empty))
             .height(self.height)
             .allow_drag(false)
             .allow_zoom(false)
@@ -78,7 +82,7 @@ impl Chart<'_> {
             .allow_axis_zoom_drag(false)
             .default_x_bounds(VISIBLE_NM[0], VISIBLE_NM[1])
             .auto_bounds([false, true])
-            .set_margin_fraction(vec2(0.0, if has_legend { ROOM_FOR_LEGEND } else { 0.05 }))
+            .set_margin_fraction(vec2(0.0, 0.05))
             .x_grid_spacer(|_| wavelength_marks())
             .y_grid_spacer(move |seen| value_marks(seen.bounds, logarithmic))
             .x_axis_formatter(|mark, _| format!("{:.0} nm", mark.value))
@@ -98,14 +102,12 @@ impl Chart<'_> {
         } else if self.division == Axis::FromZero {
             plot = plot.include_y(0.0);
         }
-        if has_legend {
-            plot = plot.legend(Legend::default().position(Corner::LeftBottom));
-        }
-        let (strong, faint) = (ui.visuals().strong_text_color(), IDLE);
+        let strong = ui.visuals().strong_text_color();
         let curves = self.curves;
         let in_colour = self.in_colour;
         let shown = plot.show(ui, |plot| {
             for curve in curves {
+                let colour = curve.colour(strong);
                 let points: Vec<[f64; 2]> = if logarithmic {
                     let lit = curve.points.iter().filter(|[_, y]| *y > 0.0);
                     lit.map(|&[nm, y]| [nm, y.log10()]).collect()
@@ -120,7 +122,7 @@ impl Chart<'_> {
                 }
                 plot.line(
                     Line::new(curve.name, PlotPoints::from(points))
-                        .color(if curve.faint { faint } else { strong })
+                        .color(colour)
                         .width(1.5)
                         .style(curve.style),
                 );
@@ -131,6 +133,25 @@ impl Chart<'_> {
             .response
             .widget_info(|| WidgetInfo::labeled(Role::Image, true, label));
     }
+}
+
+/// The curves' names, each behind a piece of its line. Above the chart, where it hides none of them.
+fn legend(ui: &mut Ui, curves: &[Curve<'_>]) {
+    ui.horizontal(|ui| {
+        let strong = ui.visuals().strong_text_color();
+        for curve in curves {
+            let (rect, _) = ui.allocate_exact_size(vec2(26.0, 10.0), Sense::hover());
+            let line = [rect.left_center(), rect.right_center()];
+            let stroke = Stroke::new(1.5, curve.colour(strong));
+            if curve.style == LineStyle::Solid {
+                ui.painter().line_segment(line, stroke);
+            } else {
+                ui.painter()
+                    .extend(Shape::dashed_line(&line, stroke, 7.0, 4.0));
+            }
+            ui.label(RichText::new(curve.name).small());
+        }
+    });
 }
 
 /// The curves' values at the wavelength under the pointer.
@@ -204,7 +225,7 @@ fn light_below(points: &[[f64; 2]], width: f64) -> BarChart {
         Bar::new(nm, y)
             .width(1.3 * width)
             .fill(colour_of(nm))
-            .stroke(egui::Stroke::NONE)
+            .stroke(Stroke::NONE)
     });
     BarChart::new("", bars.collect()).allow_hover(false)
 }
