@@ -99,6 +99,12 @@ fn a_place_is_that_of_the_flags_or_the_hottest_of_the_file() {
         said.contains("the hottest of density.txt + temperature.txt"),
         "{said}"
     );
+    let peak = said
+        .split("soot volume fraction: ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next())
+        .unwrap();
+    assert!((4.5e-6..5e-6).contains(&peak.parse().unwrap()), "{peak}");
     let (_, said) = table("density.txt temperature.txt --temperature 1234 --soot 1e-7");
     assert!(
         said.contains("temperature: 1234 K;") && said.contains("1e-7;"),
