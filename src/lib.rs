@@ -9,7 +9,7 @@
 //!
 //! ```text
 //! 10 main.rs      run, print the error chain, exit code
-//!  9 cli          flags → validated command: window | render | info
+//!  9 cli          flags → validated command: window | render | info | spectrum
 //!  8 app          the window (feature `window`)
 //!  7 engine       background rendering for the window: submit(Job), drain() → tiles
 //!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written

@@ -9,6 +9,7 @@ use sootlight::project::file::SceneFileError;
 mod errors;
 mod outputs;
 mod place;
+mod spectrum;
 mod view;
 
 use place::{Place, read_png};

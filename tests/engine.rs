@@ -237,3 +237,37 @@ fn dropping_the_engine_in_the_middle_of_a_picture_returns() {
     std::thread::sleep(Duration::from_millis(20));
     drop(engine);
 }
+
+#[test]
+fn the_engine_lends_the_scene_of_the_newest_job_and_no_other() {
+    let (engine, _) = engine();
+    let mut picture = Picture::new([32, 48]);
+    assert!(engine.scene().is_none(), "nothing was submitted");
+    let mut medium = None;
+    for number in 0..3 {
+        let job = numbered(number, [32, 48]);
+        let newest = engine.submit(job.clone());
+        // Whenever it is asked: the scene is the newest job's, or there is none yet.
+        let begun = Instant::now();
+        let scene = loop {
+            if let Some(packed) = engine.scene() {
+                assert_eq!((packed.generation, packed.size), (newest, [32, 48]));
+                break packed.scene;
+            }
+            assert!(begun.elapsed() < PATIENCE, "no scene");
+            std::thread::sleep(Duration::from_micros(50));
+        };
+        let expected = job.scene(None).flame.absorption_per_sample(550.0);
+        assert_eq!(scene.flame.absorption_per_sample(550.0), expected);
+        let before = medium.replace(scene.flame.clone());
+        assert!(
+            before.is_none_or(|before| before.shares_medium_with(&scene.flame)),
+            "nothing is packed for a lent scene"
+        );
+        wait(&engine, &mut picture, |picture| {
+            picture.generation() == Some(newest) && picture.progress.finished
+        });
+    }
+    engine.cancel();
+    assert!(engine.scene().is_none(), "cancelled");
+}

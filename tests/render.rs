@@ -3,9 +3,10 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
+use sootlight::project::Job;
 use sootlight::render::pass::{self, Audience};
 use sootlight::render::{
-    Cancel, Effects, Film, Plan, Settings, SettingsError, Switch, render_pass, render_still,
+    Cancel, Effects, Film, Plan, Probe, Settings, SettingsError, Switch, render_pass, render_still,
 };
 use sootlight::scene::WavelengthSet;
 
@@ -180,4 +181,46 @@ fn a_step_too_long_for_dense_soot_is_a_flaw() {
         "{dense:?}"
     );
     assert!(flaws(80.0, 0.05).is_empty());
+}
+
+#[test]
+fn a_probe_sees_the_pixel_that_the_picture_has() {
+    let job = Job {
+        settings: Settings {
+            step_voxels: 0.5,
+            wavelengths: WavelengthSet::Plain(64),
+            ..common::torch_job([48, 64]).settings
+        },
+        ..common::torch_job([48, 64])
+    };
+    let scene = job.scene(None);
+    let frame = render_still(&scene, &job.settings, &Cancel::never(), &|_| {}).unwrap();
+    let mut lit = 0;
+    for (x, y) in [(24, 20), (24, 40), (20, 50), (28, 33), (0, 0), (47, 63)] {
+        let point = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+        let probe = Probe::new(&scene, [48, 64], point).unwrap();
+        let pixel = frame.film.pixels()[(y * 48 + x) as usize].xyz;
+        for (got, expected) in probe.xyz.into_iter().zip(pixel) {
+            assert!(
+                (got - f64::from(expected)).abs() <= 1e-6 * got.abs(),
+                "{x}, {y}: {:?}, pixel {pixel:?}",
+                probe.xyz
+            );
+        }
+        assert_eq!(probe.spectrum.len(), 64);
+        if probe.luminance() > 0.0 {
+            lit += 1;
+            // A black body of less than 3700 K is brightest beyond the red end.
+            assert!(
+                probe
+                    .spectrum
+                    .is_sorted_by(|a, b| a[0] < b[0] && a[1] < b[1])
+            );
+            let kelvin = probe.black_body_k().unwrap();
+            assert!((1200.0..2300.0).contains(&kelvin), "{kelvin}");
+        } else {
+            assert_eq!(probe.chromaticity(), None);
+        }
+    }
+    assert!((2..6).contains(&lit), "{lit} points are lit");
 }

@@ -4,6 +4,7 @@ mod canvas;
 mod controls;
 mod export;
 mod opening;
+mod plots;
 mod real;
 mod shader;
 mod view;

@@ -10,7 +10,7 @@ use super::panels::Command;
 use super::{App, Closing};
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
-const SHORTCUTS: [(Modifiers, Key, Command); 6] = [
+const SHORTCUTS: [(Modifiers, Key, Command); 7] = [
     (
         Modifiers::COMMAND.plus(Modifiers::SHIFT),
         Key::Z,
@@ -21,6 +21,7 @@ const SHORTCUTS: [(Modifiers, Key, Command); 6] = [
     (Modifiers::COMMAND, Key::O, Command::Ask),
     (Modifiers::COMMAND, Key::E, Command::OpenExport),
     (Modifiers::NONE, Key::N, Command::TogglePanel),
+    (Modifiers::NONE, Key::S, Command::ToggleSpectrum),
 ];
 
 impl App {
@@ -48,6 +49,7 @@ impl App {
                     });
                 }
                 Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
+                Command::ToggleSpectrum => self.plots.toggle(),
                 Command::Dismiss => self.notice = None,
                 Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
                 Command::Export(wish) => {
@@ -116,7 +118,10 @@ impl App {
         if self.loader.loading().is_some() && pressed(Modifiers::NONE, Key::Escape) {
             commands.push(Command::CancelLoading);
         } else if pressed(Modifiers::NONE, Key::Escape) {
-            self.panels.export.close();
+            // What was opened last is most likely meant; the export stands in front.
+            if !self.panels.export.close() {
+                self.plots.close();
+            }
         }
         commands
     }

@@ -14,6 +14,7 @@ mod meter;
 mod opening;
 mod panels;
 mod pictures;
+mod plots;
 mod recent;
 mod start;
 mod theme;
@@ -31,6 +32,7 @@ use self::files::{Loader, Request};
 use self::meter::Meter;
 use self::panels::Panels;
 use self::pictures::Submitted;
+use self::plots::Plots;
 use self::recent::Recent;
 use crate::colour::display::View;
 use crate::engine::{Engine, Generation, Picture};
@@ -55,6 +57,7 @@ pub struct App {
     loader: Loader,
     exporter: Exporter,
     panels: Panels,
+    plots: Plots,
     recent: Recent,
     /// What went wrong last, until it is dismissed.
     notice: Option<String>,
@@ -109,6 +112,7 @@ impl App {
             loader,
             exporter,
             panels: Panels::default(),
+            plots: Plots::default(),
             recent: Recent::load(creation.storage),
             notice: None,
             closing: Closing::default(),
@@ -233,6 +237,9 @@ impl eframe::App for App {
             !self.panels.export.is_open(),
         );
         self.canvas_size = Some(shown.size);
+        let job = self.document.last_job();
+        self.plots
+            .show(&ctx, &self.engine, job, &view, &shown.place);
         panels::overlay(ui, self, canvas, &mut commands);
         let size = self.document.fixed_size.unwrap_or(shown.size);
         self.panels

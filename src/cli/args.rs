@@ -32,6 +32,12 @@ pub(super) enum Sub {
         #[command(flatten)]
         project: ProjectArgs,
     },
+    /// Write emission, absorption, scattering and refractive index against wavelength, as CSV.
+    ///
+    /// They are those of one place of the fire: with FILE, its hottest gas and densest soot; without, 1800 K and a soot
+    /// volume fraction of 1e-6. Amount and radius of the soot, fuel and air are the scene's.
+    #[command(after_long_help = keys_help())]
+    Spectrum(SpectrumArgs),
 }
 
 /// What makes a project.
@@ -76,6 +82,46 @@ pub(super) struct RenderArgs {
     pub(super) stats: Option<PathBuf>,
 }
 
+/// Flags of `spectrum`.
+#[derive(Debug, ClapArgs)]
+pub(super) struct SpectrumArgs {
+    #[command(flatten)]
+    pub(super) project: ProjectArgs,
+    /// The table; without it, or for -, standard output.
+    #[arg(short, long, value_name = "OUT.csv")]
+    pub(super) output: Option<PathBuf>,
+    /// Temperature of the place in kelvin.
+    #[arg(long, allow_negative_numbers = true, value_name = "K")]
+    pub(super) temperature: Option<f64>,
+    /// Soot volume fraction of the place, before soot.amount and the radius multiply it.
+    #[arg(long, allow_negative_numbers = true, value_name = "F_V")]
+    pub(super) soot: Option<f64>,
+    /// Progress of the reaction at the place, 0 to 1: what glows without soot.
+    #[arg(long, allow_negative_numbers = true, value_name = "SHARE")]
+    pub(super) flame: Option<f64>,
+    /// Distance of two wavelengths in nm; each row is the mean over so much.
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "NM",
+        default_value_t = 1.0
+    )]
+    pub(super) step: f64,
+    /// First and last wavelength in nm.
+    #[arg(long, value_name = "A-B", default_value = "380-780", value_parser = range)]
+    pub(super) range: [f64; 2],
+}
+
+fn range(text: &str) -> Result<[f64; 2], String> {
+    let ends = text
+        .split_once(['-', '–'])
+        .map(|(first, last)| [first.trim().parse(), last.trim().parse()]);
+    match ends {
+        Some([Ok(first), Ok(last)]) => Ok([first, last]),
+        _ => Err("expected the first and the last wavelength in nm, such as 380-780".to_owned()),
+    }
+}
+
 fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text
         .split_once(['x', 'X', '×'])
@@ -117,6 +163,15 @@ mod tests {
     #[test]
     fn the_definition_is_consistent() {
         Args::command().debug_assert();
+    }
+
+    #[test]
+    fn a_range_is_two_wavelengths() {
+        assert_eq!(range("380-780"), Ok([380.0, 780.0]));
+        assert_eq!(range("589.5 – 589.7"), Ok([589.5, 589.7]));
+        for wrong in ["380", "380-", "-780", "a-b", "380-580-780", ""] {
+            assert!(range(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

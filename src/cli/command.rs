@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{Args, ProjectArgs, RenderArgs, Sub};
+use super::args::{Args, ProjectArgs, RenderArgs, SpectrumArgs, Sub};
 use super::error::CliError;
 use crate::export::png::Bits;
 use crate::export::{Format, is_same_file};
 use crate::project::set::did_you_mean;
 use crate::project::{Preset, Project};
+use crate::scene::curves::Bands;
 
 /// A thing to do.
 #[derive(Debug)]
@@ -18,6 +19,8 @@ pub(super) enum Command {
     Render(Box<Render>),
     /// Tell about a volume.
     Info(Box<Project>),
+    /// Tabulate the optics of a place.
+    Spectrum(Box<Spectrum>),
 }
 
 /// A still to render.
@@ -29,6 +32,24 @@ pub(super) struct Render {
     pub(super) threads: usize,
     pub(super) stats: Option<PathBuf>,
 }
+
+/// The optics of a place to tabulate.
+#[derive(Debug)]
+pub(super) struct Spectrum {
+    pub(super) project: Project,
+    /// `None` for standard output.
+    pub(super) output: Option<PathBuf>,
+    pub(super) bands: Bands,
+    /// Temperature (K), soot volume fraction and progress of the reaction, where they were given.
+    pub(super) temperature_k: Option<f64>,
+    pub(super) soot: Option<f64>,
+    pub(super) flame: Option<f64>,
+}
+
+/// What a temperature may be, K.
+const TEMPERATURE_K: [f64; 2] = [1.0, 1e5];
+/// What a share may be.
+const SHARE: [f64; 2] = [0.0, 1.0];
 
 impl Command {
     /// What the arguments mean.
@@ -44,6 +65,9 @@ impl Command {
             Some(Sub::Render(args)) => {
                 Render::new(args).map(|render| Self::Render(Box::new(render)))
             }
+            Some(Sub::Spectrum(args)) => {
+                Spectrum::new(args).map(|spectrum| Self::Spectrum(Box::new(spectrum)))
+            }
         }
     }
 }
@@ -56,7 +80,8 @@ impl Render {
             project.render.size = args.size.unwrap_or(project.render.size);
         })?;
         if let Some(stats) = &args.stats {
-            refuse_lost_files(stats, &args, &project)?;
+            let picture = [(args.output.as_path(), "the picture")];
+            refuse_lost_files("--stats", stats, &picture, &args.project, &project)?;
         }
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         let threads = args.threads.map_or_else(cores, usize::from);
@@ -66,6 +91,41 @@ impl Render {
             format,
             threads,
             stats: args.stats,
+        })
+    }
+}
+
+impl Spectrum {
+    fn new(args: SpectrumArgs) -> Result<Self, CliError> {
+        let output = args.output.filter(|path| path != Path::new("-"));
+        if let Some(path) = output.as_ref().filter(|path| Format::of(path).is_some()) {
+            return Err(CliError::Usage(format!(
+                "-o {}: a spectrum is a table; let the name end with .csv",
+                path.display()
+            )));
+        }
+        let within = |flag: &str, value: Option<f64>, [low, high]: [f64; 2]| match value {
+            Some(value) if !(low..=high).contains(&value) => Err(CliError::Usage(format!(
+                "{flag} {value}: it must lie between {low} and {high}"
+            ))),
+            value => Ok(value),
+        };
+        let temperature_k = within("--temperature", args.temperature, TEMPERATURE_K)?;
+        let soot = within("--soot", args.soot, SHARE)?;
+        let flame = within("--flame", args.flame, SHARE)?;
+        let bands = Bands::new(args.range, args.step)
+            .map_err(|error| CliError::setting("--range and --step are not right", error))?;
+        let project = project(&args.project, |_| {})?;
+        if let Some(path) = &output {
+            refuse_lost_files("-o", path, &[], &args.project, &project)?;
+        }
+        Ok(Self {
+            project,
+            output,
+            bands,
+            temperature_k,
+            soot,
+            flame,
         })
     }
 }
@@ -106,16 +166,22 @@ fn format(output: &Path, bits: Option<&str>) -> Result<Format, CliError> {
     }
 }
 
-/// Statistics may not take the place of the picture, nor of what it is made from.
-fn refuse_lost_files(stats: &Path, args: &RenderArgs, project: &Project) -> Result<(), CliError> {
-    let output = std::iter::once((&args.output, "the picture"));
-    let scene = args.project.scene.iter().map(|path| (path, "the scene"));
-    let volume = project.volume.path.iter().map(|path| (path, "the volume"));
-    let mut others = output.chain(scene).chain(volume);
-    match others.find(|(path, _)| is_same_file(stats, path)) {
+/// What is written may not take the place of anything that it is made from or beside.
+fn refuse_lost_files(
+    flag: &str,
+    target: &Path,
+    beside: &[(&Path, &str)],
+    args: &ProjectArgs,
+    project: &Project,
+) -> Result<(), CliError> {
+    let scene = args.scene.iter().map(|path| (path.as_path(), "the scene"));
+    let volume = project.volume.path.iter();
+    let volume = volume.map(|path| (path.as_path(), "the volume"));
+    let mut others = beside.iter().copied().chain(scene).chain(volume);
+    match others.find(|(path, _)| is_same_file(target, path)) {
         Some((path, what)) => Err(CliError::Usage(format!(
-            "--stats {}: {what} is the same file, {}; give the statistics a name of their own",
-            stats.display(),
+            "{flag} {}: {what} is the same file, {}; choose a name of its own",
+            target.display(),
             path.display()
         ))),
         None => Ok(()),
@@ -131,7 +197,7 @@ fn refuse_mistyped_command(files: &[PathBuf]) -> Result<(), CliError> {
     else {
         return Ok(());
     };
-    match did_you_mean(word, ["render", "info", "help"]) {
+    match did_you_mean(word, ["render", "info", "spectrum", "help"]) {
         Some(command) => Err(CliError::Usage(format!(
             "there is no command and no file named {word}; did you mean {command}?"
         ))),

@@ -9,6 +9,7 @@ mod info;
 mod load;
 mod output;
 mod render;
+mod spectrum;
 mod stats;
 mod window;
 
@@ -50,6 +51,7 @@ impl Command {
             Self::Window(project) => window::run(*project),
             Self::Render(render) => render.run(),
             Self::Info(project) => info::run(&project),
+            Self::Spectrum(spectrum) => spectrum.run(),
         }
     }
 }

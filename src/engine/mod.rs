@@ -69,6 +69,17 @@ pub enum News {
     Failed(String),
 }
 
+/// A job's scene as it is being rendered, lent to whoever wants to look closer. Cheap to clone.
+#[derive(Debug, Clone)]
+pub struct Packed {
+    /// The submit that it belongs to.
+    pub generation: Generation,
+    /// The packed scene.
+    pub scene: Scene,
+    /// Size of its picture in pixels.
+    pub size: [u32; 2],
+}
+
 /// Renders in the background. Dropping it cancels and joins.
 pub struct Engine {
     shared: Arc<Shared>,
@@ -82,6 +93,8 @@ struct Shared {
     waiting: Mutex<Option<(Generation, Job, Instant)>>,
     arrived: Condvar,
     outbox: Mutex<Vec<Update>>,
+    /// The scene of the running or last job, once it is packed.
+    packed: Mutex<Option<Packed>>,
     wake: Box<dyn Fn() + Send + Sync>,
 }
 
@@ -108,6 +121,7 @@ impl Engine {
             waiting: Mutex::new(None),
             arrived: Condvar::new(),
             outbox: Mutex::new(Vec::new()),
+            packed: Mutex::new(None),
             wake,
         });
         let thread = std::thread::Builder::new()
@@ -155,6 +169,18 @@ impl Engine {
             Err(TryLockError::WouldBlock) => Vec::new(),
         }
     }
+
+    /// The packed scene of the job submitted last, cheap to have. `None` while that is being packed, after a failure, and
+    /// (for it never waits) if a worker is publishing one at this very moment.
+    pub fn scene(&self) -> Option<Packed> {
+        let packed = match self.shared.packed.try_lock() {
+            Ok(packed) => packed.clone(),
+            Err(TryLockError::Poisoned(packed)) => packed.into_inner().clone(),
+            Err(TryLockError::WouldBlock) => None,
+        };
+        let current = Generation(self.shared.current.load(Ordering::SeqCst));
+        packed.filter(|packed| packed.generation == current)
+    }
 }
 
 impl Drop for Engine {
@@ -192,6 +218,7 @@ impl Shared {
                 Ok(scene) => before = Some(scene),
                 Err(panic) => {
                     before = None;
+                    *lock(&self.packed) = None;
                     self.publish(generation, News::Failed(words_of(panic.as_ref())));
                 }
             }
@@ -226,6 +253,13 @@ impl Shared {
         let cancel = Cancel::when_passed(Arc::clone(&self.current), generation.0);
         let begun = Instant::now();
         let scene = job.scene(before);
+        let replaced = lock(&self.packed).replace(Packed {
+            generation,
+            scene: scene.clone(),
+            size: job.settings.size,
+        });
+        // What may be the last of an old volume is freed outside the lock.
+        drop(replaced);
         let plan = Plan::new(&scene, &job.settings);
         let passes = pass::ladder(&job.settings, pass::Audience::Window);
         let started = News::Started {

@@ -1,4 +1,5 @@
-//! The laws of fire: how a hot body glows, how soot absorbs and scatters, which lines and bands hot gas has.
+//! The laws of fire: how a hot body glows, how soot absorbs and scatters, which lines and bands hot gas has, how air and
+//! hot gas bend light.
 //!
 //! Every law is a plain function of f64 in SI units; wavelengths are vacuum wavelengths in nanometres where a name says
 //! `_nm`. No grids, no pictures, no state. Each file opens with its formula, the symbols with their units, the range of
@@ -11,7 +12,10 @@ pub mod bands;
 pub mod blackbody;
 pub mod constants;
 pub mod growth;
+pub mod hot_gas;
 pub mod lines;
+pub mod moist_air;
+pub mod saturation;
 pub mod soot;
 pub mod soot_index;
 

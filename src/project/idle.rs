@@ -98,10 +98,7 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::SootAmount => same(&|f| f.soot_amount += 1.0),
         Control::SmokeAmount => same(&|f| f.smoke_amount += 1.0),
         Control::SaltAmount => same(&|f| f.glow.salt_ppm += 1.0),
-        Control::BlueGlow => {
-            let unburnt = flame.glow.radicals <= 0.0 && flame.maps.flame.is_none();
-            unburnt || same(&|f| f.glow.radicals += 1.0)
-        }
+        Control::BlueGlow => same(&|f| f.glow.radicals += 1.0),
         Control::Humidity => same(&|f| f.air.humidity = 1.0 - f.air.humidity),
         Control::Co2 => same(&|f| f.air.co2_ppm += 100.0),
     };

@@ -137,13 +137,13 @@ impl Project {
 
     /// What is to glow in the gas beside soot.
     fn glow(&self, maps: &FieldMaps, flaws: &mut Flaws) -> GlowParams {
+        // Where nothing says what burns, nothing is made up unless it is asked for.
+        let by_heat = self.effects.chemiluminescence == Switch::On;
         let radicals = match self.effects.chemiluminescence {
             Switch::Off => 0.0,
-            // Where nothing says what burns, nothing is made up unless it is asked for.
-            Switch::Auto if maps.flame.is_none() => 0.0,
             Switch::Auto | Switch::On => self.fuel.blue_glow,
         };
-        if radicals > 0.0 && maps.flame.is_none() {
+        if by_heat && radicals > 0.0 && maps.flame.is_none() {
             flaws.add(
                 "no flame field: the blue glow is put where the gas is hotter than 1600 K, as if it burnt there",
             );
@@ -161,6 +161,7 @@ impl Project {
             },
             salt_ppm,
             radicals,
+            by_heat,
         }
     }
 

@@ -16,7 +16,7 @@ use super::growth::{FIT, GrowthFit, curve_of_growth_f32};
 use crate::math::lanes::{self, LANES, Lanes};
 use crate::physics::blackbody;
 use crate::scene::Flame;
-use crate::scene::glow::{Growth, Source, VAPOUR_K};
+use crate::scene::glow::{Growth, Source, Spread, VAPOUR_K};
 
 /// Most features of any flame: the richest salt has 12, the radicals 4.
 pub const MAX_FEATURES: usize = 16;
@@ -28,6 +28,8 @@ pub struct GlowTable {
     radicals: Vec<Radical>,
     /// X, Y, Z of a unit of each feature's light: the thermal ones, then the radicals.
     colours: Vec<[f64; 3]>,
+    /// How each lies over the wavelengths.
+    spreads: Vec<Spread>,
     /// Temperature of air, and one over what undiluted gas is hotter, K and 1/K.
     dilution: [f32; 2],
     growth: GrowthFit,
@@ -74,6 +76,7 @@ impl GlowTable {
             thermal: Vec::new(),
             radicals: Vec::new(),
             colours: Vec::new(),
+            spreads: Vec::new(),
             dilution: [air as f32, (1.0 / (hot - air)) as f32],
             growth: *FIT,
         };
@@ -103,6 +106,7 @@ impl GlowTable {
                 }),
             }
             table.colours.push(feature.colour);
+            table.spreads.push(feature.spread);
         }
         debug_assert!(table.colours.len() <= MAX_FEATURES);
         table
@@ -125,6 +129,19 @@ impl GlowTable {
             sum = std::array::from_fn(|c| sum[c] + light * colour[c]);
         }
         sum
+    }
+
+    /// The part of the features' light that lies in a bin of wavelengths, W m⁻² sr⁻¹.
+    pub fn light_in(&self, bin_nm: [f64; 2], light: &[f64]) -> f64 {
+        let spreads = self.spreads.iter().zip(light);
+        spreads
+            .map(|(spread, light)| light * spread.share_in(bin_nm))
+            .sum()
+    }
+
+    /// How many features there are.
+    pub fn len(&self) -> usize {
+        self.colours.len()
     }
 
     /// Soot's absorption at each feature.

@@ -68,9 +68,10 @@ impl<'a> Marcher<'a> {
     /// what they leave on the film and how many samples of the medium were taken.
     pub fn march(&self, points: &[Option<[f64; 2]>; LANES]) -> ([Pixel; LANES], u64) {
         let mut pixels = [Pixel::default(); LANES];
-        let Some(light) = self.light(points) else {
+        let Some(light) = self.follow(points) else {
             return (pixels, 0);
         };
+
         // The spectrum becomes three numbers here, in f64: the fitted weights have both signs.
         let (nodes, glow) = (&self.plan.nodes, &self.plan.glow);
         for (lane, pixel) in pixels.iter_mut().enumerate() {
@@ -90,8 +91,27 @@ impl<'a> Marcher<'a> {
         (pixels, light.samples)
     }
 
-    /// The light along rays; `None` if they all miss.
-    fn light(&self, points: &[Option<[f64; 2]>; LANES]) -> Option<Light> {
+    /// Follows the ray through one point of the picture and keeps its spectrum: radiance at each of the plan's nodes,
+    /// W m⁻² sr⁻¹ nm⁻¹, and what each feature of its gas adds, W m⁻² sr⁻¹.
+    pub fn radiance(&self, point: [f64; 2]) -> [Vec<f64>; 2] {
+        let mut points = [None; LANES];
+        points[0] = Some(point);
+        let counts = [self.plan.nodes.len(), self.plan.glow.len()];
+        let Some(light) = self.follow(&points) else {
+            return counts.map(|count| vec![0.0; count]);
+        };
+        let first = |lanes: &[Lanes], count: usize| {
+            let lanes = lanes.iter().take(count);
+            lanes.map(|lane| f64::from(lane[0])).collect()
+        };
+        [
+            first(&light.radiance, counts[0]),
+            first(&light.glow, counts[1]),
+        ]
+    }
+
+    /// What the rays through these points bring home; `None` if none of them meets soot.
+    fn follow(&self, points: &[Option<[f64; 2]>; LANES]) -> Option<Light> {
         let chords: [Option<Chord>; LANES] = std::array::from_fn(|lane| {
             points[lane]
                 .and_then(|[x, y]| Chord::new(self.medium, &self.view.ray(x, y), self.step_m))

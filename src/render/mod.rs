@@ -1,7 +1,8 @@
 //! The core: from a scene to a film. Headless, without a clock, without global state.
 //!
 //! [`Settings`] say how accurate, [`Plan`] what is computed for this scene at these settings, [`pass`] in which
-//! order, [`march`] how, [`film`] where it lands, [`develop`] how a film becomes a picture.
+//! order, [`march`] how, [`film`] where it lands, [`develop`] how a film becomes a picture; [`probe`] looks at one
+//! point alone.
 //!
 //! Everything here is deterministic: the same scene and settings give the same bits, whatever the number of
 //! threads or the order of tiles, because a pixel's value depends on its own ray alone.
@@ -24,11 +25,13 @@ mod lookup;
 pub mod march;
 pub mod pass;
 pub mod plan;
+pub mod probe;
 pub mod white;
 
 pub use film::{Film, Pixel, Tile};
 pub use pass::{Pass, render_pass};
 pub use plan::Plan;
+pub use probe::Probe;
 
 /// How accurate a picture is, in concrete numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -140,5 +140,5 @@ fn radicals_are_outshone(scene: &Scene) -> bool {
             Source::Thermal { .. } => 0.0,
         })
         .sum();
-    radicals_y * f64::from(medium.peak_flame()) < OUTSHONE * soot_y
+    radicals_y * f64::from(medium.peak_flame()) <= OUTSHONE * soot_y
 }

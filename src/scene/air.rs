@@ -1,5 +1,9 @@
 //! The air around a fire.
 
+use super::fuel::Fuel;
+use crate::physics::hot_gas::FireGas;
+use crate::physics::moist_air::{AirError, Ambient, STANDARD_PRESSURE_PA};
+
 /// What the air is like, far from the flame.
 ///
 /// Its temperature is that of gas for which a volume has no temperature. Humidity and carbon dioxide change only its
@@ -24,4 +28,35 @@ impl Default for Air {
             co2_ppm: 420.0,
         }
     }
+}
+
+impl Air {
+    /// Pressure of the air, Pa: that of the standard atmosphere.
+    pub const PRESSURE_PA: f64 = STANDARD_PRESSURE_PA;
+
+    /// How the gas of a fire in this air bends light.
+    ///
+    /// # Errors
+    /// [`AirError`]: a number is out of range, or the air cannot hold so much water.
+    pub fn gas(&self, fuel: Fuel) -> Result<FireGas, AirError> {
+        let ambient = Ambient {
+            temperature_k: self.temperature_k,
+            pressure_pa: Self::PRESSURE_PA,
+            humidity: self.humidity,
+            co2_ppm: self.co2_ppm,
+        };
+        FireGas::new(&ambient, Some(fuel.row().atoms))
+    }
+
+    /// Which share of the gas has burnt where it is so hot: all of it at the fuel's flame temperature, nothing at the
+    /// air's own; between, hot products and cold air are mixed until they are as warm as that.
+    pub fn products_share(&self, fuel: Fuel, temperature_k: f64) -> f64 {
+        products_share([self.temperature_k, fuel.row().flame_k], temperature_k)
+    }
+}
+
+/// Share 0 to 1 of hot products in gas of a temperature, given those of the air and of the undiluted products, K: heat
+/// and products mix alike (conserved scalars: S. P. Burke and T. E. W. Schumann, Ind. Eng. Chem. 20 (1928) 998).
+pub(super) fn products_share([air_k, products_k]: [f64; 2], temperature_k: f64) -> f64 {
+    ((temperature_k - air_k) / (products_k - air_k)).clamp(0.0, 1.0)
 }

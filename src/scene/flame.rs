@@ -72,7 +72,16 @@ impl FlameParams {
     /// What the parameters come to.
     fn effect(&self) -> Effect {
         let (amounts, common) = self.packed_amounts();
-        let glow = Glow::new(&self.glow, self.fuel, &self.air);
+        let says_what_burns = self.maps.flame.is_some() || self.glow.by_heat;
+        let glow = GlowParams {
+            radicals: if says_what_burns {
+                self.glow.radicals
+            } else {
+                0.0
+            },
+            ..self.glow
+        };
+        let glow = Glow::new(&glow, self.fuel, &self.air);
         let gas = self.gas_fields(&glow);
         Effect {
             key: PackingKey {

@@ -1,6 +1,7 @@
 //! Fuels: one row of a table for each, with its sources.
 
 use super::named::named_rows;
+use crate::physics::hot_gas::Atoms;
 use crate::physics::soot::{SootLaw, SootModel};
 use crate::physics::soot_index::SootIndex;
 
@@ -11,8 +12,8 @@ pub struct FuelRow {
     pub name: &'static str,
     /// The name for a person.
     pub label: &'static str,
-    /// Atoms of carbon, hydrogen and oxygen in a molecule or a typical unit: what its smoke gas is made of.
-    pub atoms: [f64; 3],
+    /// What a molecule or a typical unit is made of, and so its smoke gas; nothing for what is no substance.
+    pub atoms: Atoms,
     /// Whose measured soot index is its own, or the nearest; `None` for grey soot.
     pub soot: Option<SootIndex>,
     /// Soot for that of propane, where a volume leaves its amount to be assumed.
@@ -23,6 +24,14 @@ pub struct FuelRow {
     pub radicals: [f64; 3],
     /// What the row was taken from.
     pub source: &'static str,
+}
+
+const fn atoms(carbon: f64, hydrogen: f64, oxygen: f64) -> Atoms {
+    Atoms {
+        carbon,
+        hydrogen,
+        oxygen,
+    }
 }
 
 /// Sources of most rows.
@@ -37,7 +46,7 @@ pub const FUELS: &[FuelRow] = &[
     FuelRow {
         name: "propane",
         label: "Propane, C₃H₈",
-        atoms: [3.0, 8.0, 0.0],
+        atoms: atoms(3.0, 8.0, 0.0),
         soot: Some(SootIndex::Propane),
         soot_yield: 1.0,
         flame_k: 2267.0,
@@ -47,7 +56,7 @@ pub const FUELS: &[FuelRow] = &[
     FuelRow {
         name: "acetylene",
         label: "Acetylene, C₂H₂",
-        atoms: [2.0, 2.0, 0.0],
+        atoms: atoms(2.0, 2.0, 0.0),
         soot: Some(SootIndex::Acetylene),
         soot_yield: 4.0,
         flame_k: 2539.0,
@@ -57,7 +66,7 @@ pub const FUELS: &[FuelRow] = &[
     FuelRow {
         name: "methane",
         label: "Methane, CH₄ (natural gas)",
-        atoms: [1.0, 4.0, 0.0],
+        atoms: atoms(1.0, 4.0, 0.0),
         soot: Some(SootIndex::Propane),
         soot_yield: 0.5,
         flame_k: 2226.0,
@@ -67,7 +76,7 @@ pub const FUELS: &[FuelRow] = &[
     FuelRow {
         name: "ethylene",
         label: "Ethylene, C₂H₄",
-        atoms: [2.0, 4.0, 0.0],
+        atoms: atoms(2.0, 4.0, 0.0),
         soot: Some(SootIndex::Acetylene),
         soot_yield: 1.8,
         flame_k: 2369.0,
@@ -77,7 +86,7 @@ pub const FUELS: &[FuelRow] = &[
     FuelRow {
         name: "methanol",
         label: "Methanol, CH₃OH (spirit)",
-        atoms: [1.0, 4.0, 1.0],
+        atoms: atoms(1.0, 4.0, 1.0),
         soot: Some(SootIndex::Propane),
         soot_yield: 0.0,
         flame_k: 2230.0,
@@ -87,7 +96,7 @@ pub const FUELS: &[FuelRow] = &[
     FuelRow {
         name: "wood",
         label: "Wood, C₆H₁₀O₅",
-        atoms: [6.0, 10.0, 5.0],
+        atoms: atoms(6.0, 10.0, 5.0),
         soot: Some(SootIndex::Propane),
         soot_yield: 0.6,
         flame_k: 2250.0,
@@ -97,7 +106,7 @@ pub const FUELS: &[FuelRow] = &[
     FuelRow {
         name: "candle-wax",
         label: "Candle wax, C₂₅H₅₂",
-        atoms: [25.0, 52.0, 0.0],
+        atoms: atoms(25.0, 52.0, 0.0),
         soot: Some(SootIndex::Propane),
         soot_yield: 2.5,
         flame_k: 2275.0,
@@ -107,7 +116,7 @@ pub const FUELS: &[FuelRow] = &[
     FuelRow {
         name: "black-body",
         label: "Black body (grey soot)",
-        atoms: [0.0, 0.0, 0.0],
+        atoms: atoms(0.0, 0.0, 0.0),
         soot: None,
         soot_yield: 1.0,
         flame_k: 2267.0,
@@ -157,7 +166,7 @@ mod tests {
             );
             // Soot is a fraction of the fuel's carbon, and so are the radicals.
             if row.radicals.iter().any(|light| *light > 0.0) {
-                assert!(row.atoms[0] > 0.0, "{}", row.name);
+                assert!(row.atoms.carbon > 0.0, "{}", row.name);
             }
         }
     }

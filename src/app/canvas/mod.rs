@@ -11,7 +11,9 @@ mod placement;
 use std::time::Duration;
 
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, wgpu};
-use egui::{Color32, InputState, Label, Pos2, Rect, Role, Sense, Shape, Ui, WidgetInfo};
+use egui::{
+    Color32, InputState, Label, Pos2, Rect, Response, Role, Sense, Shape, Ui, WidgetInfo, vec2,
+};
 
 pub use self::display::Display;
 pub use self::placement::Mapping;
@@ -56,6 +58,41 @@ pub(super) struct Shown {
     pub(super) frame_all: bool,
     /// Whether a scroll over the picture still runs: its frames belong together.
     pub(super) scrolling: bool,
+    /// Where the picture lies on the screen, and where on it the pointer is.
+    pub(super) place: PicturePlace,
+}
+
+/// The picture on the screen and the pointer on the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PicturePlace {
+    /// The canvas, points.
+    pub(super) canvas: Rect,
+    /// The picture, points; it may reach beyond the canvas.
+    pub(super) picture: Rect,
+    /// The pointer, as shares of the picture's width and height, while nothing lies over the picture there.
+    pub(super) pointer: Option<[f64; 2]>,
+    /// Whether the picture was clicked there.
+    pub(super) clicked: bool,
+}
+
+impl PicturePlace {
+    fn new(canvas: Rect, corner: [f64; 2], size: [f64; 2], response: &Response) -> Self {
+        let [offset, size] = [corner, size].map(|[x, y]| vec2(x as f32, y as f32));
+        let picture = Rect::from_min_size(canvas.min + offset, size);
+        let pointer = response.hover_pos().filter(|at| picture.contains(*at));
+        let share = |at: f32, from: f32, length: f32| f64::from((at - from) / length.max(1e-6));
+        Self {
+            canvas,
+            picture,
+            pointer: pointer.map(|at| {
+                [
+                    share(at.x, picture.min.x, picture.width()),
+                    share(at.y, picture.min.y, picture.height()),
+                ]
+            }),
+            clicked: response.clicked() && !response.double_clicked(),
+        }
+    }
 }
 
 impl Canvas {
@@ -129,7 +166,15 @@ impl Canvas {
         if scrolling {
             ui.ctx().request_repaint_after(SCROLL_END);
         }
+        let in_points = |length: f64| length / f64::from(ui.pixels_per_point());
+        let place = PicturePlace::new(
+            rect,
+            mapping.corner.map(in_points),
+            film.map(|side| in_points(mapping.zoom * f64::from(side))),
+            &response,
+        );
         Shown {
+            place,
             size: canvas,
             camera: moved.filter(|moved| camera != Some(*moved) && moved.view([1, 1]).is_ok()),
             frame_all,

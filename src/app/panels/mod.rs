@@ -51,6 +51,8 @@ pub(super) enum Command {
     AutoExposure,
     /// Show the controls, or hide them.
     TogglePanel,
+    /// Show the spectra, or hide them.
+    ToggleSpectrum,
     /// Take the notice away.
     Dismiss,
     /// Show the window that asks for an export.
@@ -140,7 +142,7 @@ fn section(ui: &mut Ui, title: &str, open: bool, content: impl FnOnce(&mut Ui)) 
 }
 
 /// A number in as few characters as tell it.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
         "0".to_owned()

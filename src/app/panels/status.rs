@@ -44,6 +44,16 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>
                     {
                         commands.push(Command::TogglePanel);
                     }
+                    let spectrum = ui.selectable_label(app.plots.is_open(), "Spectrum");
+                    if spectrum
+                        .on_hover_text(
+                            "Show or hide the spectrum under the pointer, and what the fuel and the air do to light of \
+                             each wavelength (S).",
+                        )
+                        .clicked()
+                    {
+                        commands.push(Command::ToggleSpectrum);
+                    }
                     flaw_words(ui, &flaws);
                 });
             });
@@ -98,8 +108,8 @@ fn rendering(ui: &mut Ui, app: &App) {
 
 /// Width of the bar in points.
 const BAR_WIDTH: f32 = 96.0;
-/// Room that is kept for the flaws' words and the panel's button, points.
-const FLAWS_WIDTH: f32 = 180.0;
+/// Room that is kept for the flaws' words and the two buttons, points.
+const FLAWS_WIDTH: f32 = 260.0;
 
 /// What of the picture is not faithful or assumed, always in sight: the first in words, all of them under the pointer.
 fn flaw_words(ui: &mut Ui, flaws: &[&str]) {

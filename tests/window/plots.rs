@@ -1,0 +1,207 @@
+//! Spectra in the window: of the pixel under the pointer, of fuel and air.
+
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable};
+use sootlight::app::App;
+use sootlight::project::Project;
+
+use super::{set_slider, settle, window_of};
+
+/// A window with room for the plots beside the fire.
+const SIZE: [f32; 2] = [1100.0, 720.0];
+const PIXEL: &str = "Spectral radiance of the pixel against wavelength";
+
+fn plots() -> Harness<'static, App> {
+    let mut harness = window_of(Project::default(), SIZE);
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    harness
+}
+
+/// The place on the screen of a share of the picture.
+fn on_picture(harness: &Harness<'_, App>, x: f32, y: f32) -> Pos2 {
+    let rect = harness.get_by_role_and_label(Role::Image, "Picture").rect();
+    rect.lerp_inside([x, y])
+}
+
+fn point_at(harness: &mut Harness<'_, App>, at: Pos2) {
+    harness.event(Event::PointerMoved(at));
+    harness.run_steps(3);
+}
+
+fn click(harness: &mut Harness<'_, App>, at: Pos2) {
+    for pressed in [true, false] {
+        harness.event(Event::PointerMoved(at));
+        harness.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        harness.run_steps(1);
+    }
+    harness.run_steps(2);
+}
+
+fn label_with(harness: &Harness<'_, App>, words: &str) -> String {
+    let node = harness.get_by_label_contains(words);
+    node.accesskit_node()
+        .value()
+        .or(node.accesskit_node().label())
+        .unwrap_or_default()
+}
+
+/// The brightest pixel of the film, as shares of its sides, and its luminance.
+fn brightest(harness: &Harness<'_, App>) -> ([f32; 2], f64) {
+    let film = harness.state().picture().film();
+    let pixels = film.pixels();
+    let (index, pixel) = pixels
+        .iter()
+        .enumerate()
+        .max_by(|a, b| a.1.xyz[1].total_cmp(&b.1.xyz[1]))
+        .unwrap();
+    let [width, height] = film.size();
+    let share = |at: usize, side: u32| (at as f32 + 0.5) / side as f32;
+    let at = [
+        share(index % width as usize, width),
+        share(index / width as usize, height),
+    ];
+    (at, 683.0 * f64::from(pixel.xyz[1]))
+}
+
+#[test]
+fn a_key_or_the_button_opens_and_closes_the_spectra() {
+    let mut harness = window_of(Project::default(), SIZE);
+    let open = |harness: &Harness<'_, App>| harness.query_by_label("Fuel and air").is_some();
+    assert!(!open(&harness));
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    assert!(open(&harness));
+    harness
+        .get_by_role_and_label(Role::Button, "Spectrum")
+        .click();
+    harness.run_steps(3);
+    assert!(!open(&harness));
+    harness
+        .get_by_role_and_label(Role::Button, "Spectrum")
+        .click();
+    harness.run_steps(3);
+    assert!(open(&harness));
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert!(!open(&harness));
+}
+
+#[test]
+fn the_pixel_under_the_pointer_is_read() {
+    let mut harness = plots();
+    harness.get_by_label("Point at the picture");
+    assert!(harness.query_by_label_contains("cd/m²").is_none());
+    let ([x, y], luminance) = brightest(&harness);
+    let at = on_picture(&harness, x, y);
+    point_at(&mut harness, at);
+    harness.get_by_role_and_label(Role::Image, PIXEL);
+    let words = label_with(&harness, "cd/m²");
+    let read: f64 = words.split(' ').next().unwrap().parse().unwrap();
+    assert!(
+        (read / luminance - 1.0).abs() < 0.02,
+        "{words}, film {luminance}"
+    );
+    assert!(words.contains("as a black body of 1"), "{words}");
+
+    // Beside the fire it is black, and the reading says so.
+    let corner = on_picture(&harness, 0.01, 0.01);
+    point_at(&mut harness, corner);
+    harness.get_by_label_contains("0 cd/m², black");
+}
+
+#[test]
+fn a_click_keeps_a_pixel_whose_light_follows_the_sliders() {
+    let mut harness = plots();
+    let ([x, y], luminance) = brightest(&harness);
+    let at = on_picture(&harness, x, y);
+    click(&mut harness, at);
+    let pixel = label_with(&harness, "Pixel ");
+    let corner = on_picture(&harness, 0.01, 0.01);
+    point_at(&mut harness, corner);
+    assert_eq!(label_with(&harness, "Pixel "), pixel);
+
+    set_slider(&mut harness, "Soot amount", 0.1);
+    settle(&mut harness);
+    harness.run_steps(2);
+    let words = label_with(&harness, "cd/m²");
+    let read: f64 = words.split(' ').next().unwrap().parse().unwrap();
+    assert!(read < 0.5 * luminance, "{words}, before {luminance}");
+
+    harness.get_by_label("Follow the pointer").click();
+    harness.run_steps(2);
+    point_at(&mut harness, corner);
+    assert_ne!(label_with(&harness, "Pixel "), pixel);
+}
+
+#[test]
+fn reading_pixels_renders_nothing_and_is_no_step_of_undo() {
+    let mut harness = plots();
+    let before = (
+        harness.state().generation(),
+        harness.state().document().project.clone(),
+        harness.state().document().can_undo(),
+    );
+    for share in [0.3, 0.5, 0.7] {
+        let at = on_picture(&harness, share, share);
+        click(&mut harness, at);
+    }
+    let app = harness.state();
+    assert_eq!(app.generation(), before.0);
+    assert_eq!(app.document().project, before.1);
+    assert_eq!(app.document().can_undo(), before.2);
+}
+
+#[test]
+fn fuel_and_air_are_plotted_at_a_place_that_can_be_chosen() {
+    let mut harness = plots();
+    harness.get_by_label("Fuel and air").click();
+    harness.run_steps(3);
+    for chart in [
+        "Emission against wavelength",
+        "Absorption and scattering against wavelength",
+        "Refractive index less one against wavelength",
+    ] {
+        harness.get_by_role_and_label(Role::Image, chart);
+    }
+    for curve in ["Absorption", "Scattering"] {
+        harness.get_by_label(curve);
+    }
+    harness.get_by_label("the hottest and densest of this fire");
+    set_slider(&mut harness, "Temperature there", 1234.0);
+    harness.get_by_label("Logarithmic emission").click();
+    harness.run_steps(2);
+    // What was chosen is kept while the window is closed.
+    for _ in 0..2 {
+        harness.key_press(Key::S);
+        harness.run_steps(3);
+    }
+    let slider = harness.get_by_role_and_label(Role::Slider, "Temperature there");
+    assert_eq!(slider.accesskit_node().numeric_value(), Some(1234.0));
+    harness.get_by_label("Back to the fire's").click();
+    harness.run_steps(2);
+    harness.get_by_label("the hottest and densest of this fire");
+
+    // Air that holds more water than air says what to change, in place of curves.
+    let air = &mut harness.state_mut().document_mut().project.air;
+    (air.temperature_k, air.humidity) = (400.0, 1.0);
+    harness.run_steps(3);
+    harness.get_by_label_contains("lower the humidity");
+}
+
+#[test]
+fn a_small_window_keeps_the_plots_within_reach() {
+    let mut harness = window_of(Project::default(), [480.0, 320.0]);
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    let tab = harness.get_by_label("Fuel and air").rect();
+    let window = egui::Rect::from_min_max(pos2(0.0, 0.0), pos2(480.0, 320.0));
+    assert!(window.contains_rect(tab), "{tab:?}");
+}
