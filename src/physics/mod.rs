@@ -1,4 +1,4 @@
-//! The laws of fire: how a hot body glows, how soot absorbs and scatters.
+//! The laws of fire: how a hot body glows, how soot absorbs and scatters, and into which directions.
 //!
 //! Every law is a plain function of f64 in SI units; wavelengths are vacuum wavelengths in nanometres where a name says
 //! `_nm`. No grids, no pictures, no state. Each file opens with its formula, the symbols with their units, the range of
@@ -9,6 +9,7 @@
 
 pub mod blackbody;
 pub mod constants;
+pub mod phase;
 pub mod soot;
 pub mod soot_index;
 
