@@ -11,6 +11,9 @@ use sootlight::volume::{Border, Grid, Volume};
 
 use super::common;
 
+mod null_collision;
+mod z_test;
+
 /// Edge of the test cubes, m.
 const EDGE_M: f64 = 0.5;
 

@@ -1,7 +1,8 @@
 //! The core: from a scene to a film. Headless, without a clock, without global state.
 //!
 //! [`Settings`] say how accurate, [`Plan`] what is computed for this scene at these settings, [`pass`] in which
-//! order, [`march`] how, [`film`] where it lands, [`develop`] how a film becomes a picture.
+//! order, [`march`] how, [`film`] where it lands, [`develop`] how a film becomes a picture. [`null_collision`]
+//! is the slow, unbiased reference that the march is tested against.
 //!
 //! Everything here is deterministic: the same scene and settings give the same bits, whatever the number of
 //! threads or the order of tiles, because a pixel's value depends on its own ray alone.
@@ -18,6 +19,7 @@ mod chord;
 pub mod develop;
 pub mod film;
 pub mod march;
+pub mod null_collision;
 pub mod pass;
 pub mod plan;
 
