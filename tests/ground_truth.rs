@@ -11,6 +11,7 @@ use sootlight::volume::{Border, Grid, Volume};
 
 use super::common;
 
+mod furnace;
 mod null_collision;
 mod z_test;
 

@@ -16,17 +16,17 @@ pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     for _ in 0..ROUNDS {
         let [a, b] = [(0, counter[0]), (1, counter[2])]
             .map(|(half, word)| u64::from(MULTIPLIERS[half]) * u64::from(word));
-        let (high, low) = (|product: u64| (product >> 32) as u32, |product: u64| product as u32);
+        let (high, low) = (
+            |product: u64| (product >> 32) as u32,
+            |product: u64| product as u32,
+        );
         counter = [
             high(b) ^ counter[1] ^ key[0],
             low(b),
             high(a) ^ counter[3] ^ key[1],
             low(a),
         ];
-        key = [
-            key[0].wrapping_add(WEYL[0]),
-            key[1].wrapping_add(WEYL[1]),
-        ];
+        key = [key[0].wrapping_add(WEYL[0]), key[1].wrapping_add(WEYL[1])];
     }
     counter
 }
@@ -158,6 +158,9 @@ mod tests {
         let square = drawn.iter().map(|x| x * x).sum::<f64>() / f64::from(count);
         assert!(drawn.iter().all(|&x| (0.0..40.0).contains(&x)));
         // Standard errors 1/200 and √20/200.
-        assert!((mean - 1.0).abs() < 0.025 && (square - 2.0).abs() < 0.11, "{mean} {square}");
+        assert!(
+            (mean - 1.0).abs() < 0.025 && (square - 2.0).abs() < 0.11,
+            "{mean} {square}"
+        );
     }
 }

@@ -101,7 +101,10 @@ mod tests {
                 let cosine = row.number("cos_theta");
                 let expected = row.number("p_sr-1");
                 let error = (phase.value(cosine) / expected - 1.0).abs();
-                assert!(error <= 4.0 * f64::EPSILON, "g {g}, cos {cosine}: {error:e}");
+                assert!(
+                    error <= 4.0 * f64::EPSILON,
+                    "g {g}, cos {cosine}: {error:e}"
+                );
                 values += 1;
             } else {
                 let xi = row.number("xi");
@@ -160,7 +163,17 @@ mod tests {
 
     #[test]
     fn hard_case_40_the_ends_are_exact_and_all_between_are_cosines() {
-        for g in [-1.0 + 1e-16, -0.999999, -0.7, -1e-8, 0.0, 1e-8, 0.3, 0.77, 0.999999] {
+        for g in [
+            -1.0 + 1e-16,
+            -0.999999,
+            -0.7,
+            -1e-8,
+            0.0,
+            1e-8,
+            0.3,
+            0.77,
+            0.999999,
+        ] {
             let phase = HenyeyGreenstein::new(g).unwrap();
             assert_eq!(phase.sample_cosine(0.0), -1.0, "{g}");
             assert_eq!(phase.sample_cosine(1.0), 1.0, "{g}");

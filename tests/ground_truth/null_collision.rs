@@ -1,10 +1,18 @@
 //! The march against the unbiased reference, on whole pictures.
+//!
+//! The long version compares two real fires as well, with an eighth of the variance:
+//! `cargo test --release --test main -- --ignored at_length`.
 
-use sootlight::render::march::Marcher;
-use sootlight::render::null_collision::{NullCollision, Params};
+use std::path::Path;
+use std::sync::Arc;
+
+use sootlight::project::Project;
 use sootlight::render::Plan;
+use sootlight::render::march::Marcher;
+use sootlight::render::null_collision::{Estimate, NullCollision, Params};
 use sootlight::scene::{Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
+use sootlight::volume::{self, Limits};
 
 use super::super::common;
 use super::z_test::Comparison;
@@ -12,7 +20,15 @@ use super::z_test::Comparison;
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [24, 24];
 /// Paths for each pixel.
-const SAMPLES: u32 = 1024;
+const SAMPLES: u32 = 2048;
+const MANY_SAMPLES: u32 = 16384;
+
+/// The march's step, at which its own error is far below the noise, and half of it, which shows that error: it falls to
+/// a quarter, so their difference is three quarters of it.
+const STEP_VOXELS: f64 = 1.0 / 32.0;
+/// The most by which the step's error may shift any pixel's z and the mean z: a quarter and a tenth of their limits.
+const WORST_SHIFT: f64 = 1.2;
+const MEAN_SHIFT: f64 = 0.35;
 
 /// XYZ of the march through all pixel centres.
 fn marched(scene: &Scene, wavelengths: &Wavelengths, step_voxels: f64) -> Vec<[f64; 3]> {
@@ -22,55 +38,108 @@ fn marched(scene: &Scene, wavelengths: &Wavelengths, step_voxels: f64) -> Vec<[f
         .flat_map(|y| (0..SIZE[0]).map(move |x| [x, y]))
         .collect();
     let packets = pixels.chunks(16).flat_map(|packet| {
-        let point = |lane: usize| packet.get(lane).map(|p| p.map(|side| f64::from(side) + 0.5));
+        let point = |lane: usize| {
+            packet
+                .get(lane)
+                .map(|pixel| pixel.map(|side| f64::from(side) + 0.5))
+        };
         let (light, _) = marcher.march(&std::array::from_fn(point));
         light.into_iter().take(packet.len()).collect::<Vec<_>>()
     });
     packets.map(|pixel| pixel.xyz.map(f64::from)).collect()
 }
 
-fn agree(name: &str, scene: &Scene) {
-    let wavelengths = WavelengthSet::Fitted(8).wavelengths(scene.flame.soot());
-    let start = std::time::Instant::now();
+/// Asserts that the march is right on every pixel and on all together, and that one that is 1 % off would be found out.
+fn assert_agreement(name: &str, scene: &Scene, samples: u32) {
+    let wavelengths = WavelengthSet::Fitted(6).wavelengths(scene.flame.soot());
     let reference = NullCollision::new(scene, &wavelengths, &Params::default());
-    let estimates = reference.render(SIZE, SAMPLES, 1).unwrap();
-    println!("{name}: {:?}", start.elapsed());
-    for step in [1.0, 0.5, 0.25, 0.125, 0.0625] {
-        let c = Comparison::new(&estimates, &marched(scene, &wavelengths, step));
-        println!("{name} {step}: {c:?}");
-        if step == 0.0625 {
-            let m = marched(scene, &wavelengths, step);
-            let peak = m.iter().map(|m| m[1]).fold(0.0, f64::max);
-            let mut rows: Vec<_> = estimates.iter().zip(&m).enumerate().filter(|(_, (_, m))| m[1] != 0.0).map(|(i, (e, m))| {
-                let z = |c: usize| (e.mean[c] - m[c]) / e.variance_of_mean[c].sqrt();
-                (z(0), z(1), z(2), i, e.mean, e.variance_of_mean.map(f64::sqrt), m, m[1] / peak)
-            }).collect();
-            rows.sort_by(|a, b| b.1.abs().max(b.2.abs()).total_cmp(&a.1.abs().max(a.2.abs())));
-            for r in rows.iter().take(14) { println!("   {r:?}"); }
-        }
+    let estimates = reference.render(SIZE, samples, 1).unwrap();
+    let [ours, finer] = [STEP_VOXELS, 0.5 * STEP_VOXELS]
+        .map(|step_voxels| marched(scene, &wavelengths, step_voxels));
+
+    let agreement = Comparison::new(&estimates, &ours);
+    println!("{name}: {agreement:.3?}");
+    assert!(
+        agreement.pixels > 40 && agreement.noise < 0.05,
+        "{name}: {agreement:?}"
+    );
+    assert!(agreement.each_agrees(), "{name}: {agreement:?}");
+    assert!(agreement.all_agree(), "{name}: {agreement:?}");
+
+    // The same comparison with the finer march in the estimate's place shows the step's error in units of the noise.
+    let step_error: Vec<Estimate> = estimates
+        .iter()
+        .zip(&finer)
+        .map(|(estimate, &mean)| Estimate { mean, ..*estimate })
+        .collect();
+    let shift = Comparison::new(&step_error, &ours);
+    println!(
+        "{name}: half a step shifts z by {:.3}, all together by {:.3?}",
+        shift.worst, shift.together
+    );
+    assert!(shift.worst < WORST_SHIFT, "{name}: {shift:?}");
+    assert!(
+        shift.together.iter().all(|z| z.abs() < MEAN_SHIFT),
+        "{name}: {shift:?}"
+    );
+
+    for planted in [0.99, 1.01] {
+        let biased: Vec<[f64; 3]> = ours.iter().map(|xyz| xyz.map(|v| planted * v)).collect();
+        let found = Comparison::new(&estimates, &biased);
+        println!("{name}: {planted} gives {:.1?}", found.together);
+        assert!(
+            !found.all_agree(),
+            "{name}: {planted} goes unseen: {found:?}"
+        );
     }
 }
 
 #[test]
-fn the_march_agrees_on_the_torch() {
-    agree("torch", &common::torch_scene(1.0));
+fn the_march_agrees_with_the_reference_on_the_torch() {
+    assert_agreement("torch", &common::torch_scene(1.0), SAMPLES);
 }
 
 #[test]
-fn the_march_agrees_on_the_standard_plume() {
-    let Some(shared) = common::shared() else { return };
-    let file = shared.join("data/plume/plume.vdb");
-    agree("plume", &common::scene_file("plume.toml", &file, SIZE).0);
+fn the_march_agrees_with_the_reference_on_the_standard_plume() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    assert_agreement("plume", &plume(&shared), SAMPLES);
 }
+
 #[test]
-fn the_march_agrees_on_a_real_fire() {
-    let Some(shared) = common::shared() else { return };
-    for f in ["data/campfire/campfire_0022_zip_half.vdb", "data/pool/pool_0022_zip_half.vdb"] {
-    let file = shared.join(f);
-    let volume = sootlight::volume::open(&[file], &sootlight::volume::Limits::default()).unwrap();
-    let mut project = sootlight::project::Project::default();
+fn the_march_agrees_with_the_reference_on_a_real_fire() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    let scene = real(&shared.join("data/campfire/campfire_0022_zip_half.vdb"));
+    assert_agreement("campfire", &scene, SAMPLES);
+}
+
+#[test]
+#[ignore = "a minute on two cores"]
+fn the_march_agrees_with_the_reference_at_length() {
+    assert_agreement("torch", &common::torch_scene(1.0), MANY_SAMPLES);
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    assert_agreement("plume", &plume(&shared), MANY_SAMPLES);
+    for file in [
+        "campfire/campfire_0022_zip_half.vdb",
+        "pool/pool_0022_zip_half.vdb",
+    ] {
+        assert_agreement(file, &real(&shared.join("data").join(file)), MANY_SAMPLES);
+    }
+}
+
+fn plume(shared: &Path) -> Scene {
+    common::scene_file("plume.toml", &shared.join("data/plume/plume.vdb"), SIZE).0
+}
+
+/// A file as it opens without a word from anybody.
+fn real(file: &Path) -> Scene {
+    let volume = volume::open(&[file.to_path_buf()], &Limits::default()).unwrap();
+    let mut project = Project::default();
     project.render.size = SIZE;
-    let scene = project.job(&std::sync::Arc::new(volume)).unwrap().scene(None);
-    agree(f, &scene);
-    }
+    project.job(&Arc::new(volume)).unwrap().scene(None)
 }

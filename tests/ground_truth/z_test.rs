@@ -1,62 +1,66 @@
 //! Whether estimates with known variances agree with expected values, pixel by pixel and all together.
 //!
-//! z = (estimate − expected) / standard error. With thousands of samples for each mean, z is normal: Student's
-//! distribution of 1000 degrees of freedom has its 5 σ quantile at 5.05. What skewness is left shifts the mean of z by
-//! −γ/(2√n), γ being the skewness of one sample and n their number, so n has to be large enough for that as well.
+//! z = (estimate − expected) / standard error. With thousands of paths for each mean z is normal: Student's
+//! distribution of 1000 degrees of freedom has its quantile of the normal's 5 σ at 5.05. The skewness γ of a path shifts
+//! the mean of z by −γ/(2√n), because a mean that came out low comes with a low error, and skews its tails as much: n
+//! has to be large enough for that as well, which the long runs of `null_collision.rs` show.
 
 use sootlight::render::null_collision::Estimate;
 
 /// Probability that a true expectation is called wrong, by either test.
 const FALSE_ALARM: f64 = 1e-3;
 
+/// A pixel whose luminance is below this share of the brightest is black: the same limit as for colour differences.
+/// What is left there is the light of the hottest corner of a cold voxel, 1e-20 of a flame's, on which a mean of any
+/// number of random points says nothing.
+const BLACK: f64 = 1e-4;
+
 /// What the comparison shows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Comparison {
-    /// Largest |z| of any pixel's X, Y or Z, and the most that chance explains (Šidák).
+    /// Largest |z| of any pixel's X, Y or Z.
     pub(super) worst: f64,
+    /// The most that chance explains of it (Šidák).
     pub(super) worst_limit: f64,
-    /// Mean of z over the pixels times the root of their number, for each of X, Y, Z: normal if all agree. And the most
-    /// that chance explains.
+    /// Mean of z over the pixels times the root of their number, for each of X, Y, Z: normal if all agree.
     pub(super) together: [f64; 3],
+    /// The most that chance explains of it.
     pub(super) together_limit: f64,
-    /// Pixels compared; the others are exactly black in both.
+    /// Pixels compared; the others are black in both.
     pub(super) pixels: usize,
     /// Mean relative standard error of Y.
     pub(super) noise: f64,
 }
 
 impl Comparison {
-    /// Compares all pixels. One without variance is skipped if both are equal, and counts as infinitely wrong if not.
+    /// Compares all pixels that are not black in both. One without variance is known: it is passed over if it is equal,
+    /// and counts as infinitely wrong if not.
     pub(super) fn new(estimates: &[Estimate], expected: &[[f64; 3]]) -> Self {
         assert_eq!(estimates.len(), expected.len());
-        let mut comparison = Self {
-            worst: 0.0,
-            worst_limit: 0.0,
-            together: [0.0; 3],
-            together_limit: two_sided_quantile(sidak(FALSE_ALARM, 3)),
-            pixels: 0,
-            noise: 0.0,
-        };
+        let peak = expected.iter().map(|xyz| xyz[1]).fold(0.0, f64::max);
+        let (mut worst, mut sum, mut noise, mut pixels) = (0.0_f64, [0.0; 3], 0.0, 0);
         for (estimate, expected) in estimates.iter().zip(expected) {
-            let known = (0..3).all(|c| {
-                estimate.variance_of_mean[c] == 0.0 && estimate.mean[c] == expected[c]
-            });
-            if known {
+            let known = estimate.variance_of_mean == [0.0; 3] && estimate.mean == *expected;
+            if known || estimate.mean[1].max(expected[1]) < BLACK * peak {
                 continue;
             }
-            comparison.pixels += 1;
-            comparison.noise += estimate.variance_of_mean[1].sqrt() / expected[1];
-            for c in 0..3 {
+            pixels += 1;
+            noise += estimate.variance_of_mean[1].sqrt() / expected[1];
+            for (c, sum) in sum.iter_mut().enumerate() {
                 let z = (estimate.mean[c] - expected[c]) / estimate.variance_of_mean[c].sqrt();
-                comparison.worst = comparison.worst.max(z.abs());
-                comparison.together[c] += z;
+                worst = worst.max(z.abs());
+                *sum += z;
             }
         }
-        let pixels = comparison.pixels as f64;
-        comparison.worst_limit = two_sided_quantile(sidak(FALSE_ALARM, 3 * comparison.pixels));
-        comparison.together = comparison.together.map(|sum| sum / pixels.sqrt());
-        comparison.noise /= pixels;
-        comparison
+        let count = f64::from(pixels);
+        Self {
+            worst,
+            worst_limit: two_sided_quantile(sidak(FALSE_ALARM, 3 * pixels)),
+            together: sum.map(|sum| sum / count.sqrt()),
+            together_limit: two_sided_quantile(sidak(FALSE_ALARM, 3)),
+            pixels: pixels as usize,
+            noise: noise / count,
+        }
     }
 
     /// Whether no pixel stands out.
@@ -71,8 +75,8 @@ impl Comparison {
 }
 
 /// Level of each of `count` tests, so that any of them gives a false alarm with probability `level`.
-fn sidak(level: f64, count: usize) -> f64 {
-    -((-level).ln_1p() / count as f64).exp_m1()
+fn sidak(level: f64, count: u32) -> f64 {
+    -((-level).ln_1p() / f64::from(count)).exp_m1()
 }
 
 /// The z that a normal number exceeds in magnitude with a probability below ½.
@@ -98,13 +102,15 @@ fn upper_tail(z: f64) -> f64 {
 #[test]
 fn quantiles_are_those_of_the_tables() {
     for (probability, z) in [(0.05, 1.959964), (1e-3, 3.290527), (1e-6, 4.891638)] {
-        assert!((two_sided_quantile(probability) - z).abs() < 1e-6, "{probability}");
+        let ours = two_sided_quantile(probability);
+        assert!((ours - z).abs() < 1e-6, "{probability}: {ours}");
     }
-    assert!((sidak(0.05, 10) - 0.005116197).abs() < 1e-9);
+    // 1 − 0.95^{1/10}.
+    assert!((sidak(0.05, 10) - 0.0051162).abs() < 1e-7);
 }
 
 #[test]
-fn a_known_pixel_is_skipped_and_a_wrong_one_without_variance_is_not() {
+fn a_known_pixel_is_passed_over_and_a_wrong_one_without_variance_is_not() {
     let exact = |value: f64| Estimate {
         mean: [value; 3],
         variance_of_mean: [0.0; 3],
@@ -113,9 +119,14 @@ fn a_known_pixel_is_skipped_and_a_wrong_one_without_variance_is_not() {
         mean: [1.0; 3],
         variance_of_mean: [0.01; 3],
     };
-    let fine = Comparison::new(&[exact(0.0), noisy], &[[0.0; 3], [1.1; 3]]);
+    let fine = Comparison::new(
+        &[exact(0.0), exact(2.0), noisy],
+        &[[0.0; 3], [2.0; 3], [1.1; 3]],
+    );
     assert_eq!(fine.pixels, 1);
     assert!((fine.worst - 1.0).abs() < 1e-12 && fine.each_agrees() && fine.all_agree());
-    let wrong = Comparison::new(&[exact(0.0), noisy], &[[1e-9; 3], [1.1; 3]]);
-    assert!(!wrong.each_agrees());
+    for (pixel, expected) in [(0.0, 1e-3), (1e-3, 0.0)] {
+        let wrong = Comparison::new(&[exact(pixel), noisy], &[[expected; 3], [1.1; 3]]);
+        assert!(!wrong.each_agrees(), "{pixel} {expected}");
+    }
 }

@@ -66,7 +66,10 @@ pub(super) fn stretches(
         .floor()
         .as_ivec3()
         .clamp(IVec3::ZERO, limit - 1);
-    let step = ray.direction.to_array().map(|d| if d < 0.0 { -1 } else { 1 });
+    let step = ray
+        .direction
+        .to_array()
+        .map(|d| if d < 0.0 { -1 } else { 1 });
     let border = |axis: usize, brick: i32| {
         let plane = f64::from(brick + i32::from(step[axis] > 0)) * edge;
         if ray.direction[axis] == 0.0 {
@@ -78,7 +81,10 @@ pub(super) fn stretches(
     let mut next: [f64; 3] = std::array::from_fn(|axis| border(axis, brick[axis]));
     let mut from = enter;
     loop {
-        let axis = (1..3).fold(0, |best, axis| if next[axis] < next[best] { axis } else { best });
+        let axis = (1..3).fold(
+            0,
+            |best, axis| if next[axis] < next[best] { axis } else { best },
+        );
         let to = next[axis].min(exit);
         let slot = medium.table[medium.brick_index(brick.as_uvec3())];
         if slot != NO_BRICK && to > from {
@@ -90,5 +96,73 @@ pub(super) fn stretches(
         }
         from = from.max(to);
         next[axis] = border(axis, brick[axis]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use glam::{DAffine3, DVec3};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::volume::{Border, FieldMap, FieldMaps, Grid, Volume};
+
+    /// 24³ voxels of 1 m, a few blocks of which hold soot.
+    fn sparse(seed: u32) -> Medium {
+        let soot = move |voxel: IVec3| {
+            let block = voxel / 5;
+            let number = (block.x + 5 * block.y + 25 * block.z) as u32;
+            let [hash, ..] = crate::math::random::philox([number, 0, 0, 0], [seed, 0]);
+            if hash >> 29 == 0 { 1e-6 } else { 0.0 }
+        };
+        let grid = Grid::from_fn(
+            "soot",
+            IVec3::splat(24),
+            DAffine3::IDENTITY,
+            Border::Background,
+            0.0,
+            soot,
+        );
+        let maps = FieldMaps {
+            soot: Some(FieldMap::new("soot", 1.0, 0.0, 0.0, 1.0)),
+            ..FieldMaps::default()
+        };
+        let volume = Volume::from_grids(vec![grid], "sparse");
+        crate::scene::pack_for_tests(&volume, &maps).unwrap()
+    }
+
+    proptest! {
+        /// Stretches come in order, apart, and hold every point with soot: along axes, planes and any ray.
+        #[test]
+        fn every_point_with_soot_is_in_a_stretch(
+            seed in 0_u32..500,
+            origin in prop::array::uniform3(-40.0..60.0_f64),
+            direction in prop_oneof![
+                prop::array::uniform3(-1.0..1.0_f64),
+                prop::sample::select(vec![
+                    [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0], [-1.0, 1.0, -1.0],
+                ]),
+            ],
+            whole in any::<bool>(),
+        ) {
+            let medium = sparse(seed);
+            let origin = DVec3::from(origin);
+            let origin = if whole { origin.round() } else { origin };
+            let Some(ray) = Ray::new(origin, direction.into()) else { return Ok(()) };
+            let Some((local, range)) = medium.enter(&ray) else { return Ok(()) };
+            let mut found = Vec::new();
+            stretches(&medium, &local, range, &mut found);
+            prop_assert!(found.iter().all(|s| s.from < s.to && s.from >= range[0] && s.to <= range[1]));
+            prop_assert!(found.windows(2).all(|pair| pair[0].to <= pair[1].from), "{found:?}");
+            for i in 0..500 {
+                let t = range[0] + (range[1] - range[0]) * (f64::from(i) + 0.5) / 500.0;
+                // Within rounding of a border a point may belong to either side.
+                if medium.sample(local.at(t))[0] > 1e-18 {
+                    let held = found.iter().any(|s| s.from - 1e-9 <= t && t <= s.to + 1e-9);
+                    prop_assert!(held, "t = {t} is in no stretch: {found:?}");
+                }
+            }
+        }
     }
 }

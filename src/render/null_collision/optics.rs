@@ -57,9 +57,10 @@ impl Optics {
             }
         };
         let luminous = wavelengths.xyz.iter().map(|weight| weight[1].abs());
-        let brightest = luminous
-            .enumerate()
-            .fold((0, 0.0), |best, (i, y)| if y > best.1 { (i, y) } else { best });
+        let brightest = luminous.enumerate().fold(
+            (0, 0.0),
+            |best, (i, y)| if y > best.1 { (i, y) } else { best },
+        );
         Self {
             nodes: wavelengths.nodes_nm.iter().map(node).collect(),
             brightest: brightest.0,

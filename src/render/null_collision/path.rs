@@ -47,7 +47,11 @@ impl<'a> Tracer<'a> {
             medium: flame.medium(),
             bounds: bricks::bounds(flame.medium(), &optics),
             phase: params.phase,
-            max_bounces: if optics.scatters() { params.max_bounces } else { 0 },
+            max_bounces: if optics.scatters() {
+                params.max_bounces
+            } else {
+                0
+            },
             environment: wavelengths.nodes_nm.iter().map(shine).collect(),
             emission_points: params.emission_points.max(0.0),
             optics,
@@ -75,7 +79,7 @@ impl<'a> Tracer<'a> {
             match self.fly(&ray, may_scatter, &mut light, random, stretches) {
                 Flight::Ended => return,
                 Flight::Escaped => {
-                    let share = light.weights.share();
+                    let share = light.weights.share;
                     for (n, shine) in self.environment.iter().enumerate() {
                         light.radiance[n] += light.weights.value[n] * share * shine;
                     }
@@ -162,7 +166,7 @@ impl Light<'_> {
     /// A collision at which light may scatter; `decision` is a number in 0..1. Returns whether it does.
     fn collide(&mut self, optics: &Optics, sample: [f64; 2], rate: f64, decision: f64) -> bool {
         let scattered = decision < odds(&optics.local(self.hero, sample), rate);
-        let share = self.weights.share();
+        let share = self.weights.share;
         for n in 0..optics.len() {
             let local = optics.local(n, sample);
             let (value, density) = (&mut self.weights.value[n], &mut self.weights.density[n]);
@@ -176,12 +180,13 @@ impl Light<'_> {
                 *density *= 1.0 - odds;
             }
         }
+        self.weights.weigh();
         scattered
     }
 
     /// A collision at which scattered light is lost, with nothing to decide.
     fn pass(&mut self, optics: &Optics, sample: [f64; 2], rate: f64) {
-        let share = self.weights.share();
+        let share = self.weights.share;
         for n in 0..optics.len() {
             let local = optics.local(n, sample);
             let value = &mut self.weights.value[n];
@@ -207,6 +212,8 @@ fn odds(local: &Local, rate: f64) -> f64 {
 struct Weights {
     value: Vec<f64>,
     density: Vec<f64>,
+    /// What turns a value into a weight: one over the mean density.
+    share: f64,
 }
 
 impl Weights {
@@ -214,26 +221,30 @@ impl Weights {
         Self {
             value: vec![1.0; count],
             density: vec![1.0; count],
+            share: 1.0,
         }
     }
 
-    /// What turns a value into a weight: one over the mean density.
-    fn share(&self) -> f64 {
-        self.density.len() as f64 / self.density.iter().sum::<f64>()
+    /// Finds the share after a change of the densities.
+    fn weigh(&mut self) {
+        self.share = self.density.len() as f64 / self.density.iter().sum::<f64>();
     }
 
     /// Takes out the common factor, so that long paths do not underflow.
     fn normalise(&mut self) {
-        let share = self.share();
         for number in self.value.iter_mut().chain(&mut self.density) {
-            *number *= share;
+            *number *= self.share;
         }
+        self.share = 1.0;
     }
 
     /// Plays roulette if all weights are small; whether the path goes on.
     fn survive(&mut self, random: &mut Stream) -> bool {
-        let heaviest = self.value.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        let heaviest = heaviest * self.share();
+        let heaviest = self
+            .value
+            .iter()
+            .fold(0.0, |most: f64, value| most.max(value.abs()));
+        let heaviest = heaviest * self.share;
         if heaviest >= ROULETTE {
             return true;
         }
@@ -254,4 +265,46 @@ fn turned(direction: DVec3, phase: HenyeyGreenstein, random: &mut Stream) -> DVe
     let (up, across) = (TAU * random.uniform()).sin_cos();
     let (u, v) = direction.any_orthonormal_pair();
     (cosine * direction + sine * (across * u + up * v)).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    #[test]
+    fn directions_turn_by_the_mean_cosine_and_evenly_around() {
+        let before = DVec3::new(0.6, -0.48, 0.64);
+        for asymmetry in [-0.99, -0.4, 0.0, 0.4, 0.99] {
+            let phase = HenyeyGreenstein::new(asymmetry).unwrap();
+            let mut random = Stream::new(1, [0, 0], 0);
+            let count = 20_000;
+            let mut mean = DVec3::ZERO;
+            for _ in 0..count {
+                let after = turned(before, phase, &mut random);
+                assert!((after.length() - 1.0).abs() < 1e-14);
+                mean += after / f64::from(count);
+            }
+            // Five standard errors of a number within ±1.
+            let off = (mean - asymmetry * before).length();
+            assert!(off < 5.0 / f64::from(count).sqrt(), "g {asymmetry}: {off}");
+        }
+    }
+
+    #[test]
+    fn roulette_keeps_the_mean() {
+        let mut random = Stream::new(2, [0, 0], 0);
+        let count = 100_000;
+        let small = 0.2 * ROULETTE;
+        let mut sum = 0.0;
+        for _ in 0..count {
+            let mut weights = Weights::new(2);
+            weights.value = vec![small, 0.5 * small];
+            if weights.survive(&mut random) {
+                sum += weights.value[1];
+            }
+        }
+        let mean = sum / f64::from(count) / (0.5 * small);
+        assert!((mean - 1.0).abs() < 0.04, "{mean}");
+    }
 }
