@@ -48,14 +48,12 @@ fn middle(scene: &Scene, wavelengths: &Wavelengths, params: &Params, samples: u3
 }
 
 fn assert_near(estimate: &Estimate, expected: [f64; 3], what: &str) {
-    for c in 0..3 {
-        let error = estimate.variance_of_mean[c].sqrt();
-        let z = (estimate.mean[c] - expected[c]) / error;
+    for (c, expected) in expected.into_iter().enumerate() {
+        let (mean, error) = (estimate.mean[c], estimate.variance_of_mean[c].sqrt());
+        let z = (mean - expected) / error;
         assert!(
             z.abs() < CHANCE,
-            "{what}: {} ± {error}, expected {}: z = {z:.1}",
-            estimate.mean[c],
-            expected[c]
+            "{what}: {mean} ± {error}, expected {expected}: z = {z:.1}"
         );
     }
 }

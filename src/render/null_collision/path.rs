@@ -114,11 +114,13 @@ impl<'a> Tracer<'a> {
         for stretch in &*stretches {
             let bounds = self.bounds[stretch.slot as usize];
             let rate = bounds.extinction + points_per_glow * bounds.glow;
+            if rate <= 0.0 {
+                continue;
+            }
             let mut t = stretch.from;
             loop {
                 t += random.exponential() / rate;
-                // A rate of zero leads here too, by way of infinity.
-                if !(t < stretch.to) {
+                if t >= stretch.to {
                     break;
                 }
                 let sample = self.medium.sample(local.at(t));
