@@ -170,6 +170,34 @@ fn a_slab_has_its_closed_form() {
     }
 }
 
+#[test]
+fn light_that_is_never_scattered_fades_by_all_of_extinction() {
+    let depth = 2.0;
+    let scene = even(depth, 300.0);
+    let radius_nm = 80.0;
+    let params = Params {
+        scattering: Scattering::Soot { radius_nm },
+        max_bounces: 0,
+        environment: Environment::Uniform(1.0),
+        emission_points: 100.0,
+        ..Params::default()
+    };
+    let faded = middle(&scene, &three(RGB_NM), &params, 10_000);
+    let [with, without] = [1.0, 0.0].map(|scattering| {
+        RGB_NM.map(|nm| {
+            let tau = EDGE_M * volume_fraction(depth) * scene.flame.absorption_per_sample(nm);
+            let ratio = scene.flame.soot().scattering_ratio(nm, radius_nm * 1e-9);
+            (-tau * (1.0 + scattering * ratio)).exp()
+        })
+    });
+    assert_near(&faded, with, "transmittance");
+    let error = faded.variance_of_mean[1].sqrt();
+    assert!(
+        without[1] - with[1] > 20.0 * error,
+        "{with:?} {without:?} ± {error}"
+    );
+}
+
 /// Light that is scattered at most once along the middle of an even cube, by quadrature: the flame seen directly, and
 /// of each point on the way what its surroundings send there and it turns towards the eye.
 fn once_scattered(sigma: f64, albedo: f64, phase: HenyeyGreenstein, planck: f64) -> f64 {
