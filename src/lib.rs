@@ -14,13 +14,14 @@
 //!  7 engine       background rendering for the window: submit(Job), drain() → tiles
 //!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written
 //!  6 project      all that a person can set: the scene file, --set, presets
-//!  5 render       THE CORE: plan, march, film, passes, develop. Headless, no clock, no global state
+//!  5 render       THE CORE: plan, march, film, passes, develop, the unbiased reference. Headless, no clock, no
+//!                 global state
 //!  4 scene        Flame (volume + fuel + air), Camera, wavelength sets
 //!  3 volume       grids in memory and on disk, field mappings, the built-in flame
 //!  2 physics      laws: f64, SI, no grids, no pictures
 //!    colour       the standard observer, adaptation, display
 //!  1 spectral     wavelengths with weights
-//!    math         rays, boxes, lanes
+//!    math         rays, boxes, lanes, random numbers
 //! ```
 //!
 //! `tests/architecture.rs` holds the code to this picture.

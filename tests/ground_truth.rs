@@ -11,7 +11,10 @@ use sootlight::volume::{Border, Grid, Volume};
 
 use super::common;
 
+mod furnace;
 mod glow;
+mod null_collision;
+mod z_test;
 
 /// Edge of the test cubes, m.
 const EDGE_M: f64 = 0.5;

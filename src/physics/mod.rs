@@ -1,5 +1,5 @@
-//! The laws of fire: how a hot body glows, how soot absorbs and scatters, which lines and bands hot gas has, how air and
-//! hot gas bend light.
+//! The laws of fire: how a hot body glows, how soot absorbs and scatters and into which directions, which lines and bands
+//! hot gas has, how air and hot gas bend light.
 //!
 //! Every law is a plain function of f64 in SI units; wavelengths are vacuum wavelengths in nanometres where a name says
 //! `_nm`. No grids, no pictures, no state. Each file opens with its formula, the symbols with their units, the range of
@@ -15,6 +15,7 @@ pub mod growth;
 pub mod hot_gas;
 pub mod lines;
 pub mod moist_air;
+pub mod phase;
 pub mod saturation;
 pub mod soot;
 pub mod soot_index;

@@ -2,7 +2,7 @@
 //!
 //! [`Settings`] say how accurate, [`Plan`] what is computed for this scene at these settings, [`pass`] in which
 //! order, [`march`] how, [`film`] where it lands, [`develop`] how a film becomes a picture; [`probe`] looks at one
-//! point alone.
+//! point alone. [`mod@null_collision`] is the slow, unbiased reference that the march is tested against.
 //!
 //! Everything here is deterministic: the same scene and settings give the same bits, whatever the number of
 //! threads or the order of tiles, because a pixel's value depends on its own ray alone.
@@ -23,6 +23,7 @@ pub mod glow;
 mod growth;
 mod lookup;
 pub mod march;
+pub mod null_collision;
 pub mod pass;
 pub mod plan;
 pub mod probe;

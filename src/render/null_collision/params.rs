@@ -1,0 +1,70 @@
+//! What the reference simulates.
+
+use crate::physics::blackbody;
+use crate::physics::phase::HenyeyGreenstein;
+
+/// What the reference simulates. By default what the march does: emission and absorption before black surroundings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Params {
+    /// How the medium scatters.
+    pub scattering: Scattering,
+    /// Into which directions it does.
+    pub phase: HenyeyGreenstein,
+    /// How often light may have been scattered before it reaches the eye. What is scattered once more is lost, so each
+    /// order adds to the picture; 0 shows the flame dimmed by scattering as well as by absorption.
+    pub max_bounces: u32,
+    /// What shines from all sides.
+    pub environment: Environment,
+    /// Collisions that each flight spends where the medium glows, beyond those that extinction asks for: more make a
+    /// path dearer and its light less noisy. 0 or more.
+    pub emission_points: f64,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            scattering: Scattering::Off,
+            phase: HenyeyGreenstein::ISOTROPIC,
+            max_bounces: u32::MAX,
+            environment: Environment::Dark,
+            emission_points: 16.0,
+        }
+    }
+}
+
+/// How the medium scatters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Scattering {
+    /// Not at all: light is absorbed and emitted only.
+    Off,
+    /// As small particles of this radius (nm, at least 0) do, beside absorbing as they would without.
+    Soot {
+        /// Radius of a primary particle, nm.
+        radius_nm: f64,
+    },
+    /// This share (0 to 1) of what the soot would absorb is scattered instead: extinction stays. With 1 nothing is
+    /// absorbed and nothing glows.
+    Albedo(f64),
+}
+
+/// Light that comes from all sides alike.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Environment {
+    /// None.
+    Dark,
+    /// The same spectral radiance at all wavelengths, W m⁻² sr⁻¹ nm⁻¹.
+    Uniform(f64),
+    /// A black body of this temperature, K.
+    BlackBody(f64),
+}
+
+impl Environment {
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹.
+    pub fn radiance(self, lambda_nm: f64) -> f64 {
+        match self {
+            Self::Dark => 0.0,
+            Self::Uniform(radiance) => radiance,
+            Self::BlackBody(kelvin) => blackbody::spectral_radiance(lambda_nm, kelvin),
+        }
+    }
+}

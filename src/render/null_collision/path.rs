@@ -1,0 +1,312 @@
+//! One path of light, followed from the eye.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use crate::math::Ray;
+use crate::math::random::Stream;
+use crate::physics::phase::HenyeyGreenstein;
+use crate::scene::{Flame, Medium};
+use crate::spectral::Wavelengths;
+
+use super::bricks::{self, Bounds, Stretch};
+use super::optics::{Local, Optics};
+use super::params::Params;
+
+/// A path whose heaviest weight is below this plays roulette for going on.
+const ROULETTE: f64 = 1e-3;
+
+/// Follows paths through one flame.
+pub(super) struct Tracer<'a> {
+    medium: &'a Medium,
+    optics: Optics,
+    bounds: Vec<Bounds>,
+    phase: HenyeyGreenstein,
+    max_bounces: u32,
+    /// Spectral radiance of the surroundings at each wavelength.
+    environment: Vec<f64>,
+    emission_points: f64,
+}
+
+/// How a flight between two scatterings ends.
+enum Flight {
+    /// Out of the medium.
+    Escaped,
+    /// Lost at roulette.
+    Ended,
+    /// Scattered, so far along the ray (m).
+    Scattered(f64),
+}
+
+impl<'a> Tracer<'a> {
+    pub(super) fn new(flame: &'a Flame, wavelengths: &Wavelengths, params: &Params) -> Self {
+        let optics = Optics::new(flame, wavelengths, params);
+        let shine = |&nm: &f64| params.environment.radiance(nm);
+        Self {
+            medium: flame.medium(),
+            bounds: bricks::bounds(flame.medium(), &optics),
+            phase: params.phase,
+            max_bounces: if optics.scatters() {
+                params.max_bounces
+            } else {
+                0
+            },
+            environment: wavelengths.nodes_nm.iter().map(shine).collect(),
+            emission_points: params.emission_points.max(0.0),
+            optics,
+        }
+    }
+
+    /// Adds to `radiance` (one number for each wavelength) what one path from the ray's origin brings.
+    pub(super) fn trace(
+        &self,
+        ray: &Ray,
+        random: &mut Stream,
+        stretches: &mut Vec<Stretch>,
+        radiance: &mut [f64],
+    ) {
+        let count = self.optics.len();
+        let mut light = Light {
+            weights: Weights::new(count),
+            hero: ((random.uniform() * count as f64) as usize).min(count.saturating_sub(1)),
+            radiance,
+        };
+        let mut ray = *ray;
+        let mut bounces = 0;
+        loop {
+            let may_scatter = bounces < self.max_bounces;
+            match self.fly(&ray, may_scatter, &mut light, random, stretches) {
+                Flight::Ended => return,
+                Flight::Escaped => {
+                    let share = light.weights.share;
+                    for (n, shine) in self.environment.iter().enumerate() {
+                        light.radiance[n] += light.weights.value[n] * share * shine;
+                    }
+                    return;
+                }
+                Flight::Scattered(distance) => {
+                    bounces += 1;
+                    light.weights.normalise();
+                    ray = Ray {
+                        origin: ray.at(distance),
+                        direction: turned(ray.direction, self.phase, random),
+                    };
+                }
+            }
+        }
+    }
+
+    /// From the ray's origin to the next scattering or out, taking up the emission on the way.
+    fn fly(
+        &self,
+        ray: &Ray,
+        may_scatter: bool,
+        light: &mut Light<'_>,
+        random: &mut Stream,
+        stretches: &mut Vec<Stretch>,
+    ) -> Flight {
+        let Some((local, range)) = self.medium.enter(ray) else {
+            return Flight::Escaped;
+        };
+        bricks::stretches(self.medium, &local, range, stretches);
+        let points_per_glow = self.points_per_glow(stretches);
+        for stretch in &*stretches {
+            let bounds = self.bounds[stretch.slot as usize];
+            let rate = bounds.extinction + points_per_glow * bounds.glow;
+            if rate <= 0.0 {
+                continue;
+            }
+            let mut t = stretch.from;
+            loop {
+                t += random.exponential() / rate;
+                if t >= stretch.to {
+                    break;
+                }
+                let sample = self.medium.sample(local.at(t));
+                if sample[0] <= 0.0 {
+                    continue;
+                }
+                let scattered = if may_scatter {
+                    light.collide(&self.optics, sample, rate, random.uniform())
+                } else {
+                    light.pass(&self.optics, sample, rate);
+                    false
+                };
+                if !light.weights.survive(random) {
+                    return Flight::Ended;
+                }
+                if scattered {
+                    return Flight::Scattered(t);
+                }
+            }
+        }
+        Flight::Escaped
+    }
+
+    /// By how much a unit of glow raises the rate of collisions, so that the flight has its emission points; 0 where
+    /// nothing glows.
+    fn points_per_glow(&self, stretches: &[Stretch]) -> f64 {
+        let glow: f64 = stretches
+            .iter()
+            .map(|stretch| self.bounds[stretch.slot as usize].glow * (stretch.to - stretch.from))
+            .sum();
+        let points = self.emission_points / glow;
+        if points.is_finite() { points } else { 0.0 }
+    }
+}
+
+/// What a path carries and has brought.
+struct Light<'a> {
+    weights: Weights,
+    /// The wavelength that decides.
+    hero: usize,
+    radiance: &'a mut [f64],
+}
+
+impl Light<'_> {
+    /// A collision at which light may scatter; `decision` is a number in 0..1. Returns whether it does.
+    fn collide(&mut self, optics: &Optics, sample: [f64; 2], rate: f64, decision: f64) -> bool {
+        let scattered = decision < odds(&optics.local(self.hero, sample), rate);
+        let share = self.weights.share;
+        for n in 0..optics.len() {
+            let local = optics.local(n, sample);
+            let (value, density) = (&mut self.weights.value[n], &mut self.weights.density[n]);
+            self.radiance[n] += *value * share * local.emission / rate;
+            let odds = odds(&local, rate);
+            if scattered {
+                *value *= local.sigma_s / rate;
+                *density *= odds;
+            } else {
+                *value *= (rate - local.sigma_a - local.sigma_s) / rate;
+                *density *= 1.0 - odds;
+            }
+        }
+        self.weights.weigh();
+        scattered
+    }
+
+    /// A collision at which scattered light is lost, with nothing to decide.
+    fn pass(&mut self, optics: &Optics, sample: [f64; 2], rate: f64) {
+        let share = self.weights.share;
+        for n in 0..optics.len() {
+            let local = optics.local(n, sample);
+            let value = &mut self.weights.value[n];
+            self.radiance[n] += *value * share * local.emission / rate;
+            *value *= (rate - local.sigma_a - local.sigma_s) / rate;
+        }
+    }
+}
+
+/// Probability that a wavelength in charge scatters at a collision that does not absorb. A rate below the extinction
+/// would make the rest negative: the weights stay right, so the probability only has to be one.
+fn odds(local: &Local, rate: f64) -> f64 {
+    let null = (rate - local.sigma_a - local.sigma_s).abs();
+    if local.sigma_s > 0.0 {
+        local.sigma_s / (local.sigma_s + null)
+    } else {
+        0.0
+    }
+}
+
+/// What a path has been through: for each wavelength the product of what physics says, and of how probable the
+/// decisions would have been had it been in charge. Both are densities of the same path, up to a common factor.
+struct Weights {
+    value: Vec<f64>,
+    density: Vec<f64>,
+    /// What turns a value into a weight: one over the mean density.
+    share: f64,
+}
+
+impl Weights {
+    fn new(count: usize) -> Self {
+        Self {
+            value: vec![1.0; count],
+            density: vec![1.0; count],
+            share: 1.0,
+        }
+    }
+
+    /// Finds the share after a change of the densities.
+    fn weigh(&mut self) {
+        self.share = self.density.len() as f64 / self.density.iter().sum::<f64>();
+    }
+
+    /// Takes out the common factor, so that long paths do not underflow.
+    fn normalise(&mut self) {
+        for number in self.value.iter_mut().chain(&mut self.density) {
+            *number *= self.share;
+        }
+        self.share = 1.0;
+    }
+
+    /// Plays roulette if all weights are small; whether the path goes on.
+    fn survive(&mut self, random: &mut Stream) -> bool {
+        let heaviest = self
+            .value
+            .iter()
+            .fold(0.0, |most: f64, value| most.max(value.abs()));
+        let heaviest = heaviest * self.share;
+        if heaviest >= ROULETTE {
+            return true;
+        }
+        if random.uniform() * ROULETTE >= heaviest {
+            return false;
+        }
+        for value in &mut self.value {
+            *value *= ROULETTE / heaviest;
+        }
+        true
+    }
+}
+
+/// A direction after scattering.
+fn turned(direction: DVec3, phase: HenyeyGreenstein, random: &mut Stream) -> DVec3 {
+    let cosine = phase.sample_cosine(random.uniform());
+    let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
+    let (up, across) = (TAU * random.uniform()).sin_cos();
+    let (u, v) = direction.any_orthonormal_pair();
+    (cosine * direction + sine * (across * u + up * v)).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    #[test]
+    fn directions_turn_by_the_mean_cosine_and_evenly_around() {
+        let before = DVec3::new(0.6, -0.48, 0.64);
+        for asymmetry in [-0.99, -0.4, 0.0, 0.4, 0.99] {
+            let phase = HenyeyGreenstein::new(asymmetry).unwrap();
+            let mut random = Stream::new(1, [0, 0], 0);
+            let count = 20_000;
+            let mut mean = DVec3::ZERO;
+            for _ in 0..count {
+                let after = turned(before, phase, &mut random);
+                assert!((after.length() - 1.0).abs() < 1e-14);
+                mean += after / f64::from(count);
+            }
+            // Five standard errors of a number within ±1.
+            let off = (mean - asymmetry * before).length();
+            assert!(off < 5.0 / f64::from(count).sqrt(), "g {asymmetry}: {off}");
+        }
+    }
+
+    #[test]
+    fn roulette_keeps_the_mean() {
+        let mut random = Stream::new(2, [0, 0], 0);
+        let count = 100_000;
+        let small = 0.2 * ROULETTE;
+        let mut sum = 0.0;
+        for _ in 0..count {
+            let mut weights = Weights::new(2);
+            weights.value = vec![small, 0.5 * small];
+            if weights.survive(&mut random) {
+                sum += weights.value[1];
+            }
+        }
+        let mean = sum / f64::from(count) / (0.5 * small);
+        assert!((mean - 1.0).abs() < 0.04, "{mean}");
+    }
+}

@@ -1,0 +1,145 @@
+//! The march against the unbiased reference, on whole pictures.
+//!
+//! The long version compares two real fires as well, with an eighth of the variance:
+//! `cargo test --release --test main -- --ignored at_length`.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use sootlight::project::Project;
+use sootlight::render::Plan;
+use sootlight::render::march::Marcher;
+use sootlight::render::null_collision::{Estimate, NullCollision, Params};
+use sootlight::scene::{Scene, WavelengthSet};
+use sootlight::spectral::Wavelengths;
+use sootlight::volume::{self, Limits};
+
+use super::super::common;
+use super::z_test::Comparison;
+
+/// Width and height of the pictures.
+const SIZE: [u32; 2] = [24, 24];
+/// Paths for each pixel.
+const SAMPLES: u32 = 2048;
+const MANY_SAMPLES: u32 = 16384;
+
+/// The march's step, at which its own error is far below the noise, and half of it, which shows that error: it falls to
+/// a quarter, so their difference is three quarters of it.
+const STEP_VOXELS: f64 = 1.0 / 32.0;
+/// The most by which the step's error may shift any pixel's z and the mean z: a quarter and a tenth of their limits.
+const WORST_SHIFT: f64 = 1.2;
+const MEAN_SHIFT: f64 = 0.35;
+
+/// XYZ of the march through all pixel centres.
+fn marched(scene: &Scene, wavelengths: &Wavelengths, step_voxels: f64) -> Vec<[f64; 3]> {
+    let plan = Plan::with_wavelengths(scene, SIZE, wavelengths.clone());
+    let marcher = Marcher::new(scene, &plan, step_voxels).unwrap();
+    let pixels: Vec<[u32; 2]> = (0..SIZE[1])
+        .flat_map(|y| (0..SIZE[0]).map(move |x| [x, y]))
+        .collect();
+    let packets = pixels.chunks(16).flat_map(|packet| {
+        let point = |lane: usize| {
+            packet
+                .get(lane)
+                .map(|pixel| pixel.map(|side| f64::from(side) + 0.5))
+        };
+        let (light, _) = marcher.march(&std::array::from_fn(point));
+        light.into_iter().take(packet.len()).collect::<Vec<_>>()
+    });
+    packets.map(|pixel| pixel.xyz.map(f64::from)).collect()
+}
+
+/// Asserts that the march is right on every pixel and on all together, and that one that is 1 % off would be found out.
+fn assert_agreement(name: &str, scene: &Scene, samples: u32) {
+    let wavelengths = WavelengthSet::Fitted(6).wavelengths(scene.flame.soot());
+    let reference = NullCollision::new(scene, &wavelengths, &Params::default());
+    let estimates = reference.render(SIZE, samples, 1).unwrap();
+    let [ours, finer] = [STEP_VOXELS, 0.5 * STEP_VOXELS]
+        .map(|step_voxels| marched(scene, &wavelengths, step_voxels));
+
+    let agreement = Comparison::new(&estimates, &ours);
+    println!("{name}: {agreement:.3?}");
+    assert!(
+        agreement.pixels > 40 && agreement.noise < 0.05,
+        "{name}: {agreement:?}"
+    );
+    assert!(agreement.each_agrees(), "{name}: {agreement:?}");
+    assert!(agreement.all_agree(), "{name}: {agreement:?}");
+
+    // The same comparison with the finer march in the estimate's place shows the step's error in units of the noise.
+    let step_error: Vec<Estimate> = estimates
+        .iter()
+        .zip(&finer)
+        .map(|(estimate, &mean)| Estimate { mean, ..*estimate })
+        .collect();
+    let shift = Comparison::new(&step_error, &ours);
+    println!(
+        "{name}: half a step shifts z by {:.3}, all together by {:.3?}",
+        shift.worst, shift.together
+    );
+    assert!(shift.worst < WORST_SHIFT, "{name}: {shift:?}");
+    assert!(
+        shift.together.iter().all(|z| z.abs() < MEAN_SHIFT),
+        "{name}: {shift:?}"
+    );
+
+    for planted in [0.99, 1.01] {
+        let biased: Vec<[f64; 3]> = ours.iter().map(|xyz| xyz.map(|v| planted * v)).collect();
+        let found = Comparison::new(&estimates, &biased);
+        println!("{name}: {planted} gives {:.1?}", found.together);
+        assert!(
+            !found.all_agree(),
+            "{name}: {planted} goes unseen: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn the_march_agrees_with_the_reference_on_the_torch() {
+    assert_agreement("torch", &common::torch_scene(1.0), SAMPLES);
+}
+
+#[test]
+fn the_march_agrees_with_the_reference_on_the_standard_plume() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    assert_agreement("plume", &plume(&shared), SAMPLES);
+}
+
+#[test]
+fn the_march_agrees_with_the_reference_on_a_real_fire() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    let scene = real(&shared.join("data/campfire/campfire_0022_zip_half.vdb"));
+    assert_agreement("campfire", &scene, SAMPLES);
+}
+
+#[test]
+#[ignore = "a minute on two cores"]
+fn the_march_agrees_with_the_reference_at_length() {
+    assert_agreement("torch", &common::torch_scene(1.0), MANY_SAMPLES);
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    assert_agreement("plume", &plume(&shared), MANY_SAMPLES);
+    for file in [
+        "campfire/campfire_0022_zip_half.vdb",
+        "pool/pool_0022_zip_half.vdb",
+    ] {
+        assert_agreement(file, &real(&shared.join("data").join(file)), MANY_SAMPLES);
+    }
+}
+
+fn plume(shared: &Path) -> Scene {
+    common::scene_file("plume.toml", &shared.join("data/plume/plume.vdb"), SIZE).0
+}
+
+/// A file as it opens without a word from anybody.
+fn real(file: &Path) -> Scene {
+    let volume = volume::open(&[file.to_path_buf()], &Limits::default()).unwrap();
+    let mut project = Project::default();
+    project.render.size = SIZE;
+    project.job(&Arc::new(volume)).unwrap().scene(None)
+}
