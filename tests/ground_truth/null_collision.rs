@@ -6,13 +6,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use sootlight::project::Project;
+use sootlight::project::{Preset, Project};
 use sootlight::render::Plan;
 use sootlight::render::march::Marcher;
 use sootlight::render::null_collision::{Estimate, NullCollision, Params};
 use sootlight::scene::{Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
-use sootlight::volume::{self, Limits};
+use sootlight::volume::{self, BuiltIn, Limits};
 
 use super::super::common;
 use super::z_test::Comparison;
@@ -97,6 +97,18 @@ fn assert_agreement(name: &str, scene: &Scene, samples: u32) {
 #[test]
 fn the_march_agrees_with_the_reference_on_the_torch() {
     assert_agreement("torch", &common::torch_scene(1.0), SAMPLES);
+}
+
+#[test]
+fn the_march_agrees_with_the_reference_where_radicals_glow_among_smooth_soot() {
+    // Enough of it to shine beside the sooty tip.
+    let mut project = Preset::named("gas-burner").unwrap().project();
+    project
+        .set_all(["fuel.blue_glow=10000", "render.interpolation=tricubic"])
+        .unwrap();
+    project.render.size = SIZE;
+    let job = project.job(&Arc::new(BuiltIn::Burner.volume())).unwrap();
+    assert_agreement("burner", &job.scene(None), SAMPLES);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::math::Ray;
 use crate::scene::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK};
 
-use super::optics::Optics;
+use super::optics::{Optics, Place};
 
 /// What one brick is at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,12 +30,21 @@ pub(super) struct Stretch {
 
 /// Bounds of all stored bricks, in the order of their slots.
 pub(super) fn bounds(medium: &Medium, optics: &Optics) -> Vec<Bounds> {
-    let of_brick = |samples: &[[f32; 2]]| {
+    let of_brick = |(slot, samples): (usize, &[[f32; 2]])| {
         let start = (0.0_f64, 0.0_f64);
-        let (soot, glow) = samples.iter().fold(start, |(soot, glow), sample| {
-            let sample = sample.map(f64::from);
-            (soot.max(sample[0]), glow.max(optics.glow(sample)))
-        });
+        let (soot, glow) = samples
+            .iter()
+            .enumerate()
+            .fold(start, |(soot, glow), (i, sample)| {
+                let [volume_fraction, kelvin] = sample.map(f64::from);
+                let flame = medium.flame.get(slot * BRICK_SAMPLES + i);
+                let place = Place {
+                    soot: volume_fraction,
+                    kelvin,
+                    flame: flame.copied().unwrap_or(0.0).into(),
+                };
+                (soot.max(volume_fraction), glow.max(optics.glow(&place)))
+            });
         Bounds {
             extinction: optics.extinction(soot),
             glow,
@@ -44,6 +53,7 @@ pub(super) fn bounds(medium: &Medium, optics: &Optics) -> Vec<Bounds> {
     medium
         .samples
         .par_chunks_exact(BRICK_SAMPLES)
+        .enumerate()
         .map(of_brick)
         .collect()
 }

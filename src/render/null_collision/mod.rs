@@ -4,8 +4,9 @@
 //!
 //! The whole equation of transfer, dL/ds = −σ_t L + j + σ_s ∫ L Φ dω, with emission, absorption and scattering of any
 //! order, for the same flame, camera and wavelengths as the march. There is no step: the only error is noise, whose
-//! variance comes with every estimate. Objects that stand in the fire's light are not part of the scene, so no path
-//! meets a surface.
+//! variance comes with every estimate. Of what glows in the gas beside soot, the radicals are in it; a salt's lines and
+//! bands are not: those are held to sums over their profiles. Objects that stand in the fire's light are not part of
+//! the scene, so no path meets a surface.
 //!
 //! # How
 //!
@@ -15,7 +16,7 @@
 //! then the weight loses the share σ_a/μ, and a random number decides whether the path scatters or goes on as if
 //! nothing had been there. Any rate gives the right mean (Novák et al. 2014), so it is raised where the brick may glow:
 //! a flight spends [`Params::emission_points`] collisions more in proportion to the glow of what it crosses. Bricks
-//! without soot are jumped over.
+//! in which nothing shows are jumped over.
 //!
 //! *Wavelengths.* All of them travel on one path. The decisions are made with the optics of one, chosen evenly, and
 //! each wavelength's light is divided by the mean over all choices of the probability of what happened: the balance
@@ -114,13 +115,13 @@ impl<'a> NullCollision<'a> {
         let place = point.map(|side| (side as f32).to_bits());
         let mut tally = Tally::default();
         let mut stretches = Vec::new();
-        let mut radiance = vec![0.0; self.wavelengths.len()];
+        let mut radiance = vec![0.0; self.tracer.len()];
         for sample in 0..samples {
             radiance.fill(0.0);
             let mut random = Stream::new(seed, place, sample);
             self.tracer
                 .trace(&ray, &mut random, &mut stretches, &mut radiance);
-            tally.add(self.wavelengths.xyz_of(radiance.iter().copied()));
+            tally.add(self.tracer.xyz_of(self.wavelengths, &radiance));
         }
         tally.estimate()
     }

@@ -2,6 +2,7 @@
 
 use crate::physics::blackbody;
 use crate::scene::Flame;
+use crate::scene::glow::Source;
 use crate::spectral::Wavelengths;
 
 use super::params::{Params, Scattering};
@@ -17,10 +18,22 @@ pub(super) struct Local {
     pub(super) emission: f64,
 }
 
-/// The laws of one wavelength.
+/// What a point of the medium holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Soot volume fraction of the medium.
+    pub(super) soot: f64,
+    pub(super) kelvin: f64,
+    /// The flame field, 0 to 1.
+    pub(super) flame: f64,
+}
+
+/// The laws of one wavelength: one of the set's, or that at which a part of the radicals' light is carried.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     lambda_nm: f64,
+    /// What the radicals of this part emit where the flame field is 1, W m⁻³ sr⁻¹; `None` at the set's wavelengths.
+    radicals: Option<f64>,
     /// Absorption for each unit of the medium's volume fraction, 1/m.
     absorption: f64,
     /// Scattering likewise.
@@ -30,13 +43,18 @@ struct Node {
 /// The laws at all wavelengths.
 pub(super) struct Optics {
     nodes: Vec<Node>,
-    /// The node by which glow is compared between places: that which counts most in Y.
+    /// X, Y, Z of a unit of the radicals' light, part by part.
+    colours: Vec<[f64; 3]>,
+    /// The node by which the soot's glow is compared between places: that which counts most in Y.
     brightest: usize,
 }
 
+/// Width of the spectrum for which one node stands when the soot's glow is compared with that of the radicals, nm.
+const NODE_NM: f64 = 60.0;
+
 impl Optics {
     pub(super) fn new(flame: &Flame, wavelengths: &Wavelengths, params: &Params) -> Self {
-        let node = |&lambda_nm: &f64| {
+        let node = |lambda_nm: f64, radicals: Option<f64>| {
             let soot = flame.absorption_per_sample(lambda_nm);
             let [absorption, scattering] = match params.scattering {
                 Scattering::Off => [soot, 0.0],
@@ -52,6 +70,7 @@ impl Optics {
             };
             Node {
                 lambda_nm,
+                radicals,
                 absorption,
                 scattering,
             }
@@ -61,24 +80,51 @@ impl Optics {
             (0, 0.0),
             |best, (i, y)| if y > best.1 { (i, y) } else { best },
         );
+        let (mut nodes, mut colours): (Vec<Node>, _) = (
+            wavelengths
+                .nodes_nm
+                .iter()
+                .map(|&nm| node(nm, None))
+                .collect(),
+            Vec::new(),
+        );
+        for feature in flame.glow().features() {
+            if let Source::Radical(emission) = feature.source {
+                nodes.push(node(feature.lambda_nm, Some(emission)));
+                colours.push(feature.colour);
+            }
+        }
         Self {
-            nodes: wavelengths.nodes_nm.iter().map(node).collect(),
+            nodes,
+            colours,
             brightest: brightest.0,
         }
     }
 
-    /// The one place that says what a point of the medium does to light of a wavelength, given by its index. `sample`
-    /// is the medium's value there: soot volume fraction and temperature (K).
+    /// The one place that says what a point of the medium does to light of a wavelength, given by its index.
     ///
     /// Whatever is added here must also show in [`Optics::extinction`] and [`Optics::glow`].
-    pub(super) fn local(&self, node: usize, [soot, kelvin]: [f64; 2]) -> Local {
+    pub(super) fn local(&self, node: usize, place: &Place) -> Local {
         let node = &self.nodes[node];
-        let sigma_a = node.absorption * soot;
+        let sigma_a = node.absorption * place.soot;
         Local {
             sigma_a,
-            sigma_s: node.scattering * soot,
-            emission: sigma_a * blackbody::spectral_radiance(node.lambda_nm, kelvin),
+            sigma_s: node.scattering * place.soot,
+            emission: match node.radicals {
+                Some(emission) => emission * place.flame,
+                None => sigma_a * blackbody::spectral_radiance(node.lambda_nm, place.kelvin),
+            },
         }
+    }
+
+    /// X, Y, Z of what came at all wavelengths, the set's and the radicals'.
+    pub(super) fn xyz_of(&self, wavelengths: &Wavelengths, light: &[f64]) -> [f64; 3] {
+        let (set, radicals) = light.split_at(wavelengths.len());
+        let mut xyz = wavelengths.xyz_of(set.iter().copied());
+        for (light, colour) in radicals.iter().zip(&self.colours) {
+            xyz = std::array::from_fn(|c| xyz[c] + light * colour[c]);
+        }
+        xyz
     }
 
     /// How many wavelengths there are.
@@ -101,8 +147,17 @@ impl Optics {
         strongest * soot
     }
 
-    /// How bright a point is in comparison with others: its emission where the eye sees best, W m⁻³ sr⁻¹ nm⁻¹.
-    pub(super) fn glow(&self, sample: [f64; 2]) -> f64 {
-        self.local(self.brightest, sample).emission
+    /// How bright a point is in comparison with others, W m⁻³ sr⁻¹: the soot by its emission where the eye sees best.
+    pub(super) fn glow(&self, place: &Place) -> f64 {
+        let soot = match self.nodes.get(self.brightest) {
+            Some(_) => NODE_NM * self.local(self.brightest, place).emission,
+            None => 0.0,
+        };
+        let parts = self.nodes.iter().filter_map(|node| node.radicals);
+        let radicals: f64 = parts
+            .zip(&self.colours)
+            .map(|(emission, colour)| emission * colour[1])
+            .sum();
+        soot + radicals * place.flame
     }
 }

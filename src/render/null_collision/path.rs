@@ -11,7 +11,7 @@ use crate::scene::{Flame, Medium};
 use crate::spectral::Wavelengths;
 
 use super::bricks::{self, Bounds, Stretch};
-use super::optics::{Local, Optics};
+use super::optics::{Local, Optics, Place};
 use super::params::Params;
 
 /// A path whose heaviest weight is below this plays roulette for going on.
@@ -58,7 +58,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Adds to `radiance` (one number for each wavelength) what one path from the ray's origin brings.
+    /// Adds to `radiance` (one number for each of [`Tracer::len`]) what one path from the ray's origin brings.
     pub(super) fn trace(
         &self,
         ray: &Ray,
@@ -123,14 +123,14 @@ impl<'a> Tracer<'a> {
                 if t >= stretch.to {
                     break;
                 }
-                let sample = self.medium.sample(local.at(t));
-                if sample[0] <= 0.0 {
+                let place = self.place(local.at(t));
+                if place.soot <= 0.0 && place.flame <= 0.0 {
                     continue;
                 }
                 let scattered = if may_scatter {
-                    light.collide(&self.optics, sample, rate, random.uniform())
+                    light.collide(&self.optics, &place, rate, random.uniform())
                 } else {
-                    light.pass(&self.optics, sample, rate);
+                    light.pass(&self.optics, &place, rate);
                     false
                 };
                 if !light.weights.survive(random) {
@@ -142,6 +142,26 @@ impl<'a> Tracer<'a> {
             }
         }
         Flight::Escaped
+    }
+
+    /// What the medium holds at a point of the lattice.
+    fn place(&self, position: DVec3) -> Place {
+        let [soot, kelvin] = self.medium.sample(position);
+        Place {
+            soot,
+            kelvin,
+            flame: self.medium.flame(position),
+        }
+    }
+
+    /// X, Y, Z of what [`Tracer::trace`] brought.
+    pub(super) fn xyz_of(&self, wavelengths: &Wavelengths, light: &[f64]) -> [f64; 3] {
+        self.optics.xyz_of(wavelengths, light)
+    }
+
+    /// How many numbers [`Tracer::trace`] brings.
+    pub(super) fn len(&self) -> usize {
+        self.optics.len()
     }
 
     /// By how much a unit of glow raises the rate of collisions, so that the flight has its emission points; 0 where
@@ -166,11 +186,11 @@ struct Light<'a> {
 
 impl Light<'_> {
     /// A collision at which light may scatter; `decision` is a number in 0..1. Returns whether it does.
-    fn collide(&mut self, optics: &Optics, sample: [f64; 2], rate: f64, decision: f64) -> bool {
-        let scattered = decision < odds(&optics.local(self.hero, sample), rate);
+    fn collide(&mut self, optics: &Optics, place: &Place, rate: f64, decision: f64) -> bool {
+        let scattered = decision < odds(&optics.local(self.hero, place), rate);
         let share = self.weights.share;
         for n in 0..optics.len() {
-            let local = optics.local(n, sample);
+            let local = optics.local(n, place);
             let (value, density) = (&mut self.weights.value[n], &mut self.weights.density[n]);
             self.radiance[n] += *value * share * local.emission / rate;
             let odds = odds(&local, rate);
@@ -187,10 +207,10 @@ impl Light<'_> {
     }
 
     /// A collision at which scattered light is lost, with nothing to decide.
-    fn pass(&mut self, optics: &Optics, sample: [f64; 2], rate: f64) {
+    fn pass(&mut self, optics: &Optics, place: &Place, rate: f64) {
         let share = self.weights.share;
         for n in 0..optics.len() {
-            let local = optics.local(n, sample);
+            let local = optics.local(n, place);
             let value = &mut self.weights.value[n];
             self.radiance[n] += *value * share * local.emission / rate;
             *value *= (rate - local.sigma_a - local.sigma_s) / rate;
