@@ -114,31 +114,30 @@ impl Plan {
     }
 }
 
-/// Luminance of the radicals beside that of soot, where both shine most, below which they are left out: at the exposure
-/// that shows the soot's brightest parts, 4 × display white, so little is a step of 8 bits.
-const OUTSHONE: f64 = 3e-5;
+/// Luminance of the radicals beside that of the soot at the same place (or beside a thirtieth of the brightest soot's)
+/// below which they are left out: a thousandth of what is there, and less than a step of 8 bits where nothing is, at the
+/// exposure that shows the brightest parts as 4 × display white.
+const OUTSHONE: f64 = 1e-3;
 
-/// Whether soot outshines the light of radicals wherever both are brightest.
+/// Whether soot outshines the light of radicals everywhere.
 fn radicals_are_outshone(scene: &Scene) -> bool {
-    let (flame, medium) = (&scene.flame, scene.flame.medium());
-    let [soot, kelvin] = medium.brightest().map(f64::from);
-    let soot_y: f64 = (380..=780)
-        .step_by(10)
-        .map(f64::from)
-        .map(|nm| {
-            let emission =
-                flame.absorption_per_sample(nm) * soot * blackbody::spectral_radiance(nm, kelvin);
-            10.0 * emission * cie::colour_matching(nm)[1]
-        })
-        .sum();
-    let radicals_y: f64 = flame
-        .glow()
-        .features()
+    let (flame, peaks) = (&scene.flame, &scene.flame.medium().peaks);
+    let [soot, kelvin] = peaks.brightest.map(f64::from);
+    let luminous = |nm: f64| {
+        let emission =
+            flame.absorption_per_sample(nm) * soot * blackbody::spectral_radiance(nm, kelvin);
+        10.0 * emission * cie::colour_matching(nm)[1]
+    };
+    let brightest_y: f64 = (380..=780).step_by(10).map(f64::from).map(luminous).sum();
+    // The measure of the soot's glow in units of its luminance.
+    let y_per_glow = brightest_y / f64::from(peaks.glow);
+    let features = flame.glow().features();
+    let radicals_y: f64 = features
         .iter()
         .map(|feature| match feature.source {
             Source::Radical(emission) => emission * feature.colour[1],
             Source::Thermal { .. } => 0.0,
         })
         .sum();
-    radicals_y * f64::from(medium.peak_flame()) <= OUTSHONE * soot_y
+    peaks.flame <= 0.0 || radicals_y * f64::from(peaks.flame_beside_glow) < OUTSHONE * y_per_glow
 }

@@ -12,8 +12,8 @@
 use glam::{DAffine3, DVec3, IVec3, UVec3};
 
 use super::interpolation::Interpolation;
-use crate::math::{Aabb, Ray};
-use crate::physics::blackbody;
+use crate::math::{Aabb, Ray, lanes};
+use crate::physics::blackbody::SECOND_RADIATION_CONSTANT_NM_K;
 
 /// Voxels along a brick's edge.
 pub const BRICK: usize = 8;
@@ -46,34 +46,67 @@ pub struct Medium {
     pub(crate) interpolation: Interpolation,
     /// Edge of a voxel in metres: the cube root of its volume.
     pub(crate) voxel_size_m: f64,
-    /// Largest soot volume fraction of any sample.
-    pub(crate) peak_volume_fraction: f32,
-    /// Highest temperature of any sample that glows or absorbs, K; 0 if none does.
-    pub(crate) peak_temperature_k: f32,
-    /// The sample whose soot glows most.
-    pub(crate) brightest: Sample,
-    /// Largest value of the flame field.
-    pub(crate) peak_flame: f32,
+    pub(crate) peaks: Peaks,
 }
 
-/// Wavelength at which the brightest sample is looked for, nm: where the eye is most sensitive.
-const BRIGHTEST_NM: f64 = 555.0;
+/// The greatest of what a medium holds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Peaks {
+    /// Soot volume fraction.
+    pub(crate) volume_fraction: f32,
+    /// Temperature of what glows or absorbs, K.
+    pub(crate) temperature_k: f32,
+    /// Flame field.
+    pub(crate) flame: f32,
+    /// The sample whose soot glows most, and how much it does, in the measure of [`soot_glow`].
+    pub(crate) brightest: Sample,
+    pub(crate) glow: f32,
+    /// Flame field over the soot's glow at the same place, where a thirtieth of the brightest soot's stands in for less.
+    pub(crate) flame_beside_glow: f32,
+}
 
-impl Medium {
-    /// Notes what a sample adds to the peaks.
-    pub(super) fn note(&mut self, [soot, temperature_k]: Sample, flame: f32) {
-        let glow = |[soot, kelvin]: Sample| {
-            f64::from(soot) * blackbody::spectral_radiance(BRIGHTEST_NM, f64::from(kelvin))
-        };
-        self.peak_volume_fraction = self.peak_volume_fraction.max(soot);
-        self.peak_temperature_k = self.peak_temperature_k.max(temperature_k);
-        self.peak_flame = self.peak_flame.max(flame);
-        // The most soot at the highest temperature bounds what has been seen: a look at Planck's law is rarely needed.
-        if soot > self.brightest[0] || temperature_k > self.brightest[1] {
-            let sample = [soot, temperature_k];
-            if glow(sample) > glow(self.brightest) {
-                self.brightest = sample;
-            }
+/// Wavelength at which the glow of soot is compared, nm: where the eye is most sensitive.
+pub(crate) const COMPARED_NM: f64 = 555.0;
+/// Share of the brightest glow below which places count as alike.
+const DIM: f32 = 0.03;
+
+/// How much soot glows, for comparison: f_v e^{−c₂/λT} at [`COMPARED_NM`].
+pub(crate) fn soot_glow([soot, kelvin]: Sample) -> f32 {
+    const EXPONENT_K: f32 = (SECOND_RADIATION_CONSTANT_NM_K / COMPARED_NM) as f32;
+    soot * lanes::exp(-EXPONENT_K / kelvin)
+}
+
+impl Peaks {
+    /// Notes a sample, and 0 to 1 of its flame field.
+    pub(super) fn note(&mut self, sample: Sample, flame: f32) {
+        let glow = soot_glow(sample);
+        self.merge(&Self {
+            volume_fraction: sample[0],
+            temperature_k: sample[1],
+            flame,
+            brightest: sample,
+            glow,
+            flame_beside_glow: 0.0,
+        });
+    }
+
+    /// Notes the peaks of another part.
+    pub(super) fn merge(&mut self, other: &Self) {
+        self.volume_fraction = self.volume_fraction.max(other.volume_fraction);
+        self.temperature_k = self.temperature_k.max(other.temperature_k);
+        self.flame = self.flame.max(other.flame);
+        self.flame_beside_glow = self.flame_beside_glow.max(other.flame_beside_glow);
+        if other.glow > self.glow {
+            (self.brightest, self.glow) = (other.brightest, other.glow);
+        }
+    }
+
+    /// How much of a flame field stands beside how much glow, once the brightest glow is known.
+    pub(super) fn beside(&self, sample: Sample, flame: f32) -> f32 {
+        if flame > 0.0 {
+            flame / (soot_glow(sample) + DIM * self.glow)
+        } else {
+            0.0
         }
     }
 }
@@ -86,22 +119,12 @@ impl Medium {
 
     /// Largest soot volume fraction of any sample, before the amounts of the scene file.
     pub fn peak_volume_fraction(&self) -> f32 {
-        self.peak_volume_fraction
+        self.peaks.volume_fraction
     }
 
     /// Highest temperature of any sample that glows or absorbs, K; 0 if none does.
     pub fn peak_temperature_k(&self) -> f32 {
-        self.peak_temperature_k
-    }
-
-    /// Soot volume fraction and temperature (K) of the sample whose soot glows most.
-    pub fn brightest(&self) -> [f32; 2] {
-        self.brightest
-    }
-
-    /// Largest value of the flame field; 0 where no burning gas glows.
-    pub fn peak_flame(&self) -> f32 {
-        self.peak_flame
+        self.peaks.temperature_k
     }
 
     /// How values between samples are formed.

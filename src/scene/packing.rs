@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::glow::VAPOUR_K;
 use super::interpolation::Interpolation;
-use super::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES, Sample};
+use super::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, Peaks, SAMPLES, Sample};
 use super::source::Source;
 use crate::math::Aabb;
 use crate::volume::{Border, FieldMaps, Limits, Volume};
@@ -171,17 +171,34 @@ impl Medium {
     /// shows, so it keeps them.
     fn keep_what_shows(&mut self, packed: &[UVec3], hot: bool) {
         let vapour_k = VAPOUR_K[0] as f32;
-        let mut shows = vec![false; packed.len()];
-        for (i, shows) in shows.iter_mut().enumerate() {
-            for at in i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES {
-                let sample = self.samples[at];
-                let flame = self.flame.get(at).copied().unwrap_or(0.0);
-                if sample[0] > 0.0 || flame > 0.0 || (hot && sample[1] > vapour_k) {
-                    self.note(sample, flame);
-                    *shows = true;
+        let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
+        let parts: Vec<Option<Peaks>> = bricks
+            .enumerate()
+            .map(|(i, samples)| {
+                let mut peaks = None;
+                for (at, sample) in samples.iter().enumerate() {
+                    let flame = self.flame_of(i * BRICK_SAMPLES + at);
+                    if sample[0] > 0.0 || flame > 0.0 || (hot && sample[1] > vapour_k) {
+                        peaks
+                            .get_or_insert_with(Peaks::default)
+                            .note(*sample, flame);
+                    }
                 }
-            }
+                peaks
+            })
+            .collect();
+        parts
+            .iter()
+            .flatten()
+            .for_each(|part| self.peaks.merge(part));
+        if !self.flame.is_empty() {
+            let (flame, samples) = (self.flame.par_iter(), self.samples.par_iter());
+            self.peaks.flame_beside_glow = flame
+                .zip(samples)
+                .map(|(flame, sample)| self.peaks.beside(*sample, *flame))
+                .reduce(|| 0.0, f32::max);
         }
+        let mut shows: Vec<bool> = parts.iter().map(Option::is_some).collect();
         if self.interpolation == Interpolation::Tricubic {
             shows = self.beside(packed, &shows);
         }
@@ -203,6 +220,11 @@ impl Medium {
         self.samples.shrink_to_fit();
         self.flame.truncate(kept * BRICK_SAMPLES);
         self.flame.shrink_to_fit();
+    }
+
+    /// The flame field of a sample; 0 where none is stored.
+    fn flame_of(&self, sample: usize) -> f32 {
+        self.flame.get(sample).copied().unwrap_or(0.0)
     }
 
     /// Which bricks show something or touch one that does.
@@ -289,10 +311,7 @@ pub(super) fn empty() -> Medium {
         flame: Vec::new(),
         voxel_size_m: 1.0,
         interpolation: Interpolation::default(),
-        peak_volume_fraction: 0.0,
-        peak_temperature_k: 0.0,
-        brightest: [0.0; 2],
-        peak_flame: 0.0,
+        peaks: Peaks::default(),
     }
 }
 
