@@ -11,6 +11,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use sootlight::project::PRESETS;
+
 use super::common;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sootlight");
@@ -43,9 +45,16 @@ fn still(folder: &Path, name: &str, arguments: &[&str]) {
 
 /// Opens the window on a virtual display and takes its picture after it has come to rest.
 fn window(folder: &Path, name: &str, files: &[&str]) {
+    window_after(folder, name, files, "true");
+}
+
+/// [`window`], after hands did something to it.
+fn window_after(folder: &Path, name: &str, files: &[&str], hands: &str) {
     // The script succeeds if the picture was taken and the program was there to be seen.
-    let script = r#""$0" "${@:2}" & program=$!; sleep 6; import -window root "$1"; taken=$?
-        kill $program || exit 1; wait; exit $taken"#;
+    let script = format!(
+        r#""$0" "${{@:2}}" & program=$!; sleep 6; {hands}; import -window root "$1"; taken=$?
+        kill $program || exit 1; wait; exit $taken"#
+    );
     let output = cleared(name);
     let memory = tempfile::tempdir().expect("a temporary folder");
     let status = Command::new("xvfb-run")
@@ -58,7 +67,7 @@ fn window(folder: &Path, name: &str, files: &[&str]) {
             "-screen 0 1280x800x24",
             "bash",
             "-c",
-            script,
+            &script,
             PROGRAM,
         ])
         .arg(&output)
@@ -76,6 +85,21 @@ fn of_the_built_in_flame() {
     window(here, "window.png", &[]);
     let set = ["--set", "view.false_colour=true"];
     window(here, "window_false_colour.png", &set);
+}
+
+#[test]
+#[ignore = "writes screenshots/, by the command at the top of this file"]
+fn of_the_presets() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for preset in PRESETS.iter().filter(|preset| preset.name != "torch") {
+        let name = format!("{}.png", preset.name.replace('-', "_"));
+        still(here, &name, &["--preset", preset.name, "--size", "600x900"]);
+    }
+    // The spectrum of the blue cone, under the pointer.
+    let hands = "xdotool search --name Sootlight windowfocus; sleep 0.3; xdotool key s; sleep 0.5; \
+                 xdotool mousemove 455 600; sleep 2";
+    let gas_burner = ["--preset", "gas-burner"];
+    window_after(here, "window_spectrum.png", &gas_burner, hands);
 }
 
 #[test]

@@ -73,15 +73,18 @@ impl Preset {
         Project::from_toml(self.scene, Path::new("")).unwrap_or_default()
     }
 
-    /// Takes over what burns. Fields that a person's file has stay as they are mapped: only where one of the program's
-    /// own flames is shown does the preset choose which.
+    /// Takes over what burns. A person's file stays as it is mapped and looked at: only where one of the program's own
+    /// flames is shown does the preset choose which, and how it is exposed.
     pub fn apply(&self, project: &mut Project) {
         let scene = self.project();
-        if project.volume.path.is_empty() && project.volume.built_in != scene.volume.built_in {
-            project.volume = VolumeSettings {
-                built_in: scene.volume.built_in,
-                ..VolumeSettings::default()
-            };
+        if project.volume.path.is_empty() {
+            if project.volume.built_in != scene.volume.built_in {
+                project.volume = VolumeSettings {
+                    built_in: scene.volume.built_in,
+                    ..VolumeSettings::default()
+                };
+            }
+            project.view = scene.view;
         }
         project.fuel = scene.fuel;
         project.soot = scene.soot;

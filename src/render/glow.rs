@@ -16,7 +16,7 @@ use super::growth::{FIT, GrowthFit, curve_of_growth_f32};
 use crate::math::lanes::{self, LANES, Lanes};
 use crate::physics::blackbody;
 use crate::scene::Flame;
-use crate::scene::glow::{Growth, Source, Spread, VAPOUR_K};
+use crate::scene::glow::{Feature, Growth, Source, Spread, VAPOUR_K};
 
 /// Most features of any flame: the richest salt has 12, the radicals 4.
 pub const MAX_FEATURES: usize = 16;
@@ -68,8 +68,8 @@ pub(super) struct Step {
 }
 
 impl GlowTable {
-    /// Bakes a flame's features; the radicals only if asked for.
-    pub(super) fn new(flame: &Flame, with_radicals: bool) -> Self {
+    /// Bakes features for a flame.
+    pub(super) fn new(flame: &Flame, features: Vec<Feature>) -> Self {
         let glow = flame.glow();
         let [air, hot] = glow.dilution_k();
         let mut table = Self {
@@ -81,7 +81,7 @@ impl GlowTable {
             growth: *FIT,
         };
         // The thermal features come first.
-        for feature in glow.features() {
+        for feature in features {
             let nm = feature.lambda_nm;
             let absorption = flame.absorption_per_sample(nm) as f32;
             match feature.source {
@@ -99,7 +99,6 @@ impl GlowTable {
                     lower_k: lower_k as f32,
                     growth,
                 }),
-                Source::Radical(_) if !with_radicals => continue,
                 Source::Radical(emission) => table.radicals.push(Radical {
                     absorption,
                     emission: emission as f32,

@@ -8,7 +8,7 @@ use super::{Flaws, Settings, Switch};
 use crate::colour::cie;
 use crate::physics::blackbody;
 use crate::scene::Scene;
-use crate::scene::glow::Source;
+use crate::scene::glow::{Feature, Source};
 use crate::spectral::Wavelengths;
 
 /// One wavelength of the march.
@@ -54,15 +54,14 @@ impl Plan {
     /// Bakes the tables for the settings' own wavelengths.
     pub fn new(scene: &Scene, settings: &Settings) -> Self {
         let wavelengths = settings.wavelengths.wavelengths(scene.flame.soot());
+        let mut features = scene.flame.glow().features();
         let with_radicals = match settings.effects.chemiluminescence {
-            Switch::Auto => !radicals_are_outshone(scene),
+            Switch::Auto => !radicals_are_outshone(scene, &features),
             Switch::On => true,
             Switch::Off => false,
         };
-        let mut plan = Self {
-            glow: GlowTable::new(&scene.flame, with_radicals),
-            ..Self::with_wavelengths(scene, settings.size, wavelengths)
-        };
+        features.retain(|feature| with_radicals || !feature.is_radical());
+        let mut plan = Self::baked(scene, settings.size, wavelengths, features);
         let medium = scene.flame.medium();
         let densest = plan
             .nodes
@@ -84,6 +83,15 @@ impl Plan {
     /// Bakes the tables for given wavelengths, at most [`MAX_NODES`] of them: those of a measurement, say. All that
     /// glows in the gas is in it.
     pub fn with_wavelengths(scene: &Scene, size: [u32; 2], wavelengths: Wavelengths) -> Self {
+        Self::baked(scene, size, wavelengths, scene.flame.glow().features())
+    }
+
+    fn baked(
+        scene: &Scene,
+        size: [u32; 2],
+        wavelengths: Wavelengths,
+        features: Vec<Feature>,
+    ) -> Self {
         debug_assert!(wavelengths.len() <= MAX_NODES);
         let nodes: Vec<Node> = wavelengths
             .nodes_nm
@@ -94,7 +102,7 @@ impl Plan {
                 planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
             })
             .collect();
-        let glow = GlowTable::new(&scene.flame, true);
+        let glow = GlowTable::new(&scene.flame, features);
         let clearest = nodes
             .iter()
             .map(|node| node.absorption)
@@ -120,7 +128,7 @@ impl Plan {
 const OUTSHONE: f64 = 1e-3;
 
 /// Whether soot outshines the light of radicals everywhere.
-fn radicals_are_outshone(scene: &Scene) -> bool {
+fn radicals_are_outshone(scene: &Scene, features: &[Feature]) -> bool {
     let (flame, peaks) = (&scene.flame, &scene.flame.medium().peaks);
     let [soot, kelvin] = peaks.brightest.map(f64::from);
     let luminous = |nm: f64| {
@@ -131,7 +139,6 @@ fn radicals_are_outshone(scene: &Scene) -> bool {
     let brightest_y: f64 = (380..=780).step_by(10).map(f64::from).map(luminous).sum();
     // The measure of the soot's glow in units of its luminance.
     let y_per_glow = brightest_y / f64::from(peaks.glow);
-    let features = flame.glow().features();
     let radicals_y: f64 = features
         .iter()
         .map(|feature| match feature.source {

@@ -79,15 +79,16 @@ pub(crate) fn soot_glow([soot, kelvin]: Sample) -> f32 {
 impl Peaks {
     /// Notes a sample, and 0 to 1 of its flame field.
     pub(super) fn note(&mut self, sample: Sample, flame: f32) {
-        let glow = soot_glow(sample);
-        self.merge(&Self {
-            volume_fraction: sample[0],
-            temperature_k: sample[1],
-            flame,
-            brightest: sample,
-            glow,
-            flame_beside_glow: 0.0,
-        });
+        self.volume_fraction = self.volume_fraction.max(sample[0]);
+        self.temperature_k = self.temperature_k.max(sample[1]);
+        self.flame = self.flame.max(flame);
+        // Less soot that is cooler, too, glows less: Planck's law is rarely asked.
+        if sample[0] > self.brightest[0] || sample[1] > self.brightest[1] {
+            let glow = soot_glow(sample);
+            if glow > self.glow {
+                (self.brightest, self.glow) = (sample, glow);
+            }
+        }
     }
 
     /// Notes the peaks of another part.

@@ -117,6 +117,13 @@ pub enum Growth {
     Box,
 }
 
+impl Feature {
+    /// Whether it is light of radicals.
+    pub fn is_radical(&self) -> bool {
+        matches!(self.source, Source::Radical(_))
+    }
+}
+
 /// The features of emitters: thermal ones one by one, then the radicals' light part by part.
 pub(super) fn features(emitters: &[Emitter]) -> Vec<Feature> {
     let thermal = emitters.iter().filter_map(thermal);

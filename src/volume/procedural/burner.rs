@@ -89,12 +89,13 @@ fn body_radius(height: f32) -> f32 {
 /// Soot: inside the hot gas, from above the cone to the tip, where it burns away from the outside.
 fn soot(height: f32, inside_body: f32) -> f32 {
     // It begins at the sides, where the gas has been hot for longest, and rises towards the axis.
-    let late = 0.16 * smoothstep(0.0, 0.8 * BODY_M, inside_body);
-    let grown = smoothstep(0.20 + late, 0.66 + late, height).powi(2);
+    let late = 0.2 * smoothstep(0.0, 0.7 * BODY_M, inside_body);
+    let grown = smoothstep(0.14 + late, 0.8 + late, height).powi(3);
     let burnt_up = 1.0 - smoothstep(0.88, 1.0, height);
     let inside = smoothstep(0.1 * EDGE_M, 1.1 * EDGE_M, inside_body);
     let density = PEAK_SOOT * grown * burnt_up * inside;
-    if density < 2e-3 * PEAK_SOOT {
+    // So little does not show even beside the blue glow; below it, air stays empty.
+    if density < 1e-5 * PEAK_SOOT {
         0.0
     } else {
         density
