@@ -169,7 +169,24 @@ fn statistics_have_the_keys_that_scripts_read() {
     assert_eq!(stats["rays"], 40 * 24);
     assert_eq!(stats["threads"], 2);
     assert!(stats["samples"].as_u64().unwrap() > 0);
-    assert_eq!(stats["plan"][0]["effect"], "emission-absorption");
+    let plan = stats["plan"].as_array().unwrap();
+    let states: Vec<_> = plan
+        .iter()
+        .map(|it| {
+            (
+                it["effect"].as_str().unwrap(),
+                it["state"].as_str().unwrap(),
+            )
+        })
+        .collect();
+    assert_eq!(
+        states,
+        [
+            ("emission-absorption", "on"),
+            ("lines", "off"),
+            ("chemiluminescence", "off")
+        ]
+    );
     assert!(
         !stats["flaws"].as_array().unwrap().is_empty(),
         "the voxel size is a guess"

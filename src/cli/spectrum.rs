@@ -111,6 +111,14 @@ impl Spectrum {
             "gas: {:.3} products of the fuel, the rest air",
             curves.products_share()
         ));
+        let outside = curves.lines_outside(&self.bands);
+        if !outside.is_empty() {
+            let outside: Vec<String> = outside.iter().map(|nm| format!("{nm:.2}")).collect();
+            line(format!(
+                "lines of the salt outside of this range, in no row: {} nm",
+                outside.join(", ")
+            ));
+        }
         line(format!(
             "vacuum wavelengths; each row but n_minus_1 is the mean over {} nm around its wavelength",
             self.bands.step_nm()

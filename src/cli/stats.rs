@@ -46,11 +46,7 @@ impl Stats<'_> {
             "threads": self.threads,
             "rays": self.frame.rays,
             "samples": self.frame.samples,
-            "plan": [{
-                "effect": "emission-absorption",
-                "state": "on",
-                "reason": "soot glows and absorbs: it is the picture",
-            }],
+            "plan": self.plan(),
             "flaws": self.flaws.iter().collect::<Vec<_>>(),
             "settings": self.settings(),
             "exposure": self.exposure(),
@@ -67,6 +63,17 @@ impl Stats<'_> {
         })
     }
 
+    fn plan(&self) -> Value {
+        let decisions = self.frame.decisions.iter().map(|decision| {
+            json!({
+                "effect": decision.effect,
+                "state": if decision.on { "on" } else { "off" },
+                "reason": decision.reason,
+            })
+        });
+        decisions.collect()
+    }
+
     fn settings(&self) -> Value {
         let settings = &self.job.settings;
         json!({
@@ -78,6 +85,7 @@ impl Stats<'_> {
                 WavelengthSet::Plain(_) => "plain",
             },
             "samples_per_pixel": settings.samples_per_pixel,
+            "interpolation": self.job.flame.interpolation.name(),
         })
     }
 

@@ -166,6 +166,7 @@ mod tests {
             film: test_film(),
             rays: 0,
             samples: 0,
+            decisions: Vec::new(),
             flaws: Flaws::default(),
         };
         let still = Still::new(&project, &Arc::new(procedural::torch()), locked);

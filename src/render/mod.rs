@@ -187,6 +187,8 @@ pub struct Frame {
     pub rays: u64,
     /// Samples of the medium taken.
     pub samples: u64,
+    /// Which effects were computed, and why.
+    pub decisions: Vec<plan::Decision>,
     /// What the settings could not show faithfully.
     pub flaws: Flaws,
 }
@@ -225,6 +227,7 @@ pub fn render_still(
             .unwrap_or_else(std::sync::PoisonError::into_inner),
         rays,
         samples,
+        decisions: plan.decisions,
         flaws: plan.flaws,
     })
 }

@@ -35,8 +35,21 @@ pub struct Plan {
     pub size: [u32; 2],
     /// What these settings cannot show faithfully of this scene.
     pub flaws: Flaws,
+    /// Which effects are computed, and why.
+    pub decisions: Vec<Decision>,
     /// Once the medium's column ∫ f_v ds (m) exceeds this, no wavelength lets anything behind be seen.
     pub opaque_column_m: f32,
+}
+
+/// Whether an effect is computed, and why.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Decision {
+    /// Its name, as in the scene file's `[effects]` where it stands there.
+    pub effect: &'static str,
+    /// Whether it is computed.
+    pub on: bool,
+    /// Why, for a person.
+    pub reason: &'static str,
 }
 
 /// Most wavelengths of any set.
@@ -55,13 +68,14 @@ impl Plan {
     pub fn new(scene: &Scene, settings: &Settings) -> Self {
         let wavelengths = settings.wavelengths.wavelengths(scene.flame.soot());
         let mut features = scene.flame.glow().features();
-        let with_radicals = match settings.effects.chemiluminescence {
-            Switch::Auto => !radicals_are_outshone(scene, &features),
-            Switch::On => true,
-            Switch::Off => false,
-        };
+        let decisions = decisions(scene, &features, settings.effects.chemiluminescence);
+        let is_on = |effect: &str| decisions.iter().any(|it| it.effect == effect && it.on);
+        let with_radicals = is_on(CHEMILUMINESCENCE);
         features.retain(|feature| with_radicals || !feature.is_radical());
-        let mut plan = Self::baked(scene, settings.size, wavelengths, features);
+        let mut plan = Self {
+            decisions,
+            ..Self::baked(scene, settings.size, wavelengths, features)
+        };
         let medium = scene.flame.medium();
         let densest = plan
             .nodes
@@ -117,9 +131,50 @@ impl Plan {
             glow,
             size,
             flaws: Flaws::default(),
+            decisions: Vec::new(),
             opaque_column_m,
         }
     }
+}
+
+/// The name of the radicals' light among the effects.
+const CHEMILUMINESCENCE: &str = "chemiluminescence";
+
+/// Which effects a scene calls for.
+fn decisions(scene: &Scene, features: &[Feature], radicals: Switch) -> Vec<Decision> {
+    let decision = |effect, on, reason| Decision { effect, on, reason };
+    let glow = scene.flame.glow();
+    vec![
+        decision(
+            "emission-absorption",
+            true,
+            "soot glows and absorbs: it is the picture",
+        ),
+        if glow.has_metal() {
+            decision("lines", true, "there is a salt in the gas")
+        } else {
+            decision("lines", false, "there is no salt, or it was switched off")
+        },
+        match radicals {
+            _ if !glow.has_radicals() => decision(
+                CHEMILUMINESCENCE,
+                false,
+                "nothing says what burns, the fuel does not glow, or it was switched off",
+            ),
+            Switch::Auto if radicals_are_outshone(scene, features) => decision(
+                CHEMILUMINESCENCE,
+                false,
+                "soot outshines the burning gas a thousandfold wherever it burns",
+            ),
+            Switch::Auto => decision(
+                CHEMILUMINESCENCE,
+                true,
+                "burning gas may be seen beside the soot",
+            ),
+            Switch::On => decision(CHEMILUMINESCENCE, true, "it was asked for"),
+            Switch::Off => decision(CHEMILUMINESCENCE, false, "it was switched off"),
+        },
+    ]
 }
 
 /// Luminance of the radicals beside that of the soot at the same place (or beside a thirtieth of the brightest soot's)

@@ -159,6 +159,13 @@ impl Curves {
         self.optics.soot_volume_fraction(&self.local)
     }
 
+    /// Vacuum wavelengths of the atoms' lines that lie in none of the bands, nm.
+    pub fn lines_outside(&self, bands: &Bands) -> Vec<f64> {
+        let last = bands.count.saturating_sub(1);
+        self.optics
+            .lines_outside([bands.band_nm(0)[0], bands.band_nm(last)[1]])
+    }
+
     /// One row for each band.
     ///
     /// # Errors

@@ -124,6 +124,17 @@ impl Glow {
         mixed * t * t * (3.0 - 2.0 * t)
     }
 
+    /// Vacuum wavelengths of the atoms' lines that a range does not hold, nm.
+    pub fn lines_outside(&self, range_nm: [f64; 2]) -> Vec<f64> {
+        let lines = self.emitters.iter().filter_map(|emitter| match emitter {
+            Emitter::Line { line, .. } => Some(line.lambda_nm),
+            Emitter::Band { .. } | Emitter::Radical { .. } => None,
+        });
+        lines
+            .filter(|&nm| !lines::is_in_bin(nm, range_nm))
+            .collect()
+    }
+
     /// The features in which the march carries this glow.
     pub fn features(&self) -> Vec<Feature> {
         feature::features(&self.emitters)

@@ -58,6 +58,11 @@ impl Optics {
         self.volume_fraction_factor * local.soot_volume_fraction
     }
 
+    /// Vacuum wavelengths of the atoms' lines that a range of bands does not hold, nm: nothing of them is in any mean.
+    pub fn lines_outside(&self, range_nm: [f64; 2]) -> Vec<f64> {
+        self.glow.lines_outside(range_nm)
+    }
+
     /// The mean coefficients of a place over the band `[from, to)`, nm.
     ///
     /// Preconditions: 0 < from < to, both finite; `local` within its ranges.

@@ -93,6 +93,18 @@ fn a_salt_stands_in_the_table_with_its_area_and_the_burning_gas_with_its_bands()
         "{fine} {coarse}"
     );
 
+    // Case 33: potassium's red lines lie beyond 700 nm, and it is said.
+    let potassium = "spectrum --set fuel.salt=potassium --range 400-700";
+    let [said, _] = place.expect(0, potassium);
+    let (_, comments) = read(&said);
+    let told = comments.iter().find(|line| line.contains("outside"));
+    assert!(
+        told.is_some_and(|line| line.contains("766.70, 770.11 nm")),
+        "{told:?}"
+    );
+    let [said, _] = place.expect(0, "spectrum --set fuel.salt=potassium --range 400-800");
+    assert!(!read(&said).1.iter().any(|line| line.contains("outside")));
+
     // The Swan band's head at 516.5 nm and the violet of CH stand out of soot of a millionth of the usual amount.
     let blue = rows("--soot 1e-12 --flame 1");
     let emission = |nm: f64| at(&blue, nm)[1];
