@@ -1,9 +1,8 @@
 //! A ray prepared for the march: its steps through the domain, and which of them may meet soot.
 
-use glam::IVec3;
-
+use super::walk::for_each_stretch;
 use crate::math::Ray;
-use crate::scene::medium::{BRICK, Medium, NO_BRICK};
+use crate::scene::medium::Medium;
 
 /// Steps of one ray that lie in bricks with soot: `first..end`, rising, apart.
 pub(super) type Runs = Vec<[u32; 2]>;
@@ -42,96 +41,31 @@ impl Chord {
     }
 }
 
-/// Walks the table of bricks along a ray (Amanatides & Woo 1987) and collects the steps whose middle may lie in
-/// a brick with soot. Each run is a step longer at both ends than the brick's chord, so rounding loses none.
-fn occupied_runs(
-    medium: &Medium,
-    ray: &Ray,
-    [enter, exit]: [f64; 2],
-    step_m: f64,
-    steps: f64,
-) -> Runs {
+/// Collects the steps whose middle may lie in a stored brick. Each run is a step longer at both ends than the brick's
+/// stretch, so rounding loses none.
+fn occupied_runs(medium: &Medium, ray: &Ray, range: [f64; 2], step_m: f64, steps: f64) -> Runs {
     let mut runs = Runs::new();
-    let edge = BRICK as f64;
-    let at_enter = ray.at(enter) / edge;
-    let limit = medium.bricks.as_ivec3();
-    let mut cell = at_enter.floor().as_ivec3().clamp(IVec3::ZERO, limit - 1);
-    let inverse = ray
-        .direction
-        .to_array()
-        .map(|d| if d == 0.0 { f64::INFINITY } else { edge / d });
-    let step = ray
-        .direction
-        .to_array()
-        .map(|d| if d < 0.0 { -1 } else { 1 });
-    let origin = (ray.origin / edge).to_array();
-    let border = |axis: usize, cell: i32| {
-        if inverse[axis].is_infinite() {
-            return f64::INFINITY;
+    let enter = range[0];
+    for_each_stretch(medium, ray, range, |stretch| {
+        let first = ((stretch.from - enter) / step_m - 1.5).ceil().max(0.0) as u32;
+        let end = (((stretch.to - enter) / step_m + 1.5).floor()).min(steps) as u32;
+        match runs.last_mut() {
+            Some(run) if first <= run[1] => run[1] = run[1].max(end),
+            _ if first < end => runs.push([first, end]),
+            _ => {}
         }
-        (f64::from(cell + i32::from(step[axis] > 0)) - origin[axis]) * inverse[axis]
-    };
-    let mut next: [f64; 3] = std::array::from_fn(|axis| border(axis, cell[axis]));
-    let mut t = enter;
-    loop {
-        let axis = (0..3).fold(
-            0,
-            |best, axis| if next[axis] < next[best] { axis } else { best },
-        );
-        let leave = next[axis].min(exit);
-        if medium.table[medium.brick_index(cell.as_uvec3())] != NO_BRICK {
-            let first = ((t - enter) / step_m - 1.5).ceil().max(0.0) as u32;
-            let end = (((leave - enter) / step_m + 1.5).floor()).min(steps) as u32;
-            match runs.last_mut() {
-                Some(run) if first <= run[1] => run[1] = run[1].max(end),
-                _ if first < end => runs.push([first, end]),
-                _ => {}
-            }
-        }
-        if next[axis] >= exit {
-            return runs;
-        }
-        cell[axis] += step[axis];
-        if cell[axis] < 0 || cell[axis] >= limit[axis] {
-            return runs;
-        }
-        t = leave.max(t);
-        next[axis] = border(axis, cell[axis]);
-    }
+    });
+    runs
 }
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use glam::{DAffine3, DVec3};
+    use glam::DVec3;
     use proptest::prelude::*;
 
+    use super::super::walk::tests::sparse;
     use super::*;
-    use crate::volume::{Border, FieldMap, FieldMaps, Grid, Volume};
-
-    /// A sparse volume of 24³ voxels of 1 m with soot where the hash of the voxel says so, packed.
-    fn sparse(seed: u32) -> Medium {
-        let soot = move |voxel: IVec3| {
-            let block = voxel / 5;
-            let hash = (block.x as u32 * 73 + block.y as u32 * 179 + block.z as u32 * 283 + seed)
-                .wrapping_mul(0x9e37_79b1);
-            if hash >> 29 == 0 { 1e-6 } else { 0.0 }
-        };
-        let grid = Grid::from_fn(
-            "soot",
-            IVec3::splat(24),
-            DAffine3::IDENTITY,
-            Border::Background,
-            0.0,
-            soot,
-        );
-        let maps = FieldMaps {
-            soot: Some(FieldMap::new("soot", 1.0, 0.0, 0.0, 1.0)),
-            ..FieldMaps::default()
-        };
-        let volume = Volume::from_grids(vec![grid], "sparse");
-        crate::scene::pack_for_tests(&volume, &maps).unwrap()
-    }
+    use crate::scene::Interpolation;
 
     proptest! {
         /// No sample with soot is skipped: along axes, diagonals, grazing rays and any others.
@@ -147,8 +81,9 @@ mod tests {
             ],
             whole in any::<bool>(),
             step_m in 0.2..9.0_f64,
+            interpolation in prop::sample::select(Interpolation::ALL.to_vec()),
         ) {
-            let medium = sparse(seed);
+            let medium = sparse(seed, interpolation);
             let origin = DVec3::from(origin);
             // Half of the rays run exactly along planes of the lattice.
             let origin = if whole { origin.round() } else { origin };

@@ -112,3 +112,36 @@ fn cell<const GAS: bool>(medium: &Medium, voxel: [i32; 3], fraction: [f32; 3]) -
 fn between<const N: usize>(a: [f32; N], b: [f32; N], f: f32) -> [f32; N] {
     std::array::from_fn(|i| a[i] + f * (b[i] - a[i]))
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    use super::super::walk::tests::sparse;
+    use super::*;
+
+    proptest! {
+        /// In single precision every interpolation is its f64 twin, on borders of bricks and beyond the lattice, too; and
+        /// none leaves the range of the samples.
+        #[test]
+        fn a_lookup_is_its_twin_in_double_precision(
+            seed in 0_u32..500,
+            position in prop::array::uniform3(-4.0..44.0_f64),
+            whole in any::<bool>(),
+            interpolation in prop::sample::select(Interpolation::ALL.to_vec()),
+        ) {
+            let medium = sparse(seed, interpolation);
+            let position = if whole { position.map(f64::round) } else { position };
+            let [soot, kelvin, flame] = lookup::<true>(&medium, position);
+            let [expected, expected_k] = medium.sample(DVec3::from(position));
+            let peak = f64::from(medium.peak_volume_fraction());
+            prop_assert!((f64::from(soot) - expected).abs() <= 1e-6 * peak, "{soot} {expected}");
+            prop_assert!(soot >= 0.0 && f64::from(soot) <= peak * (1.0 + 1e-6) && flame == 0.0);
+            // Where no brick is, clear air of any temperature will do.
+            if expected > 1e-3 * peak {
+                prop_assert!((f64::from(kelvin) / expected_k - 1.0).abs() < 1e-5, "{kelvin} {expected_k}");
+            }
+        }
+    }
+}

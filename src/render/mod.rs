@@ -27,6 +27,7 @@ pub mod null_collision;
 pub mod pass;
 pub mod plan;
 pub mod probe;
+mod walk;
 pub mod white;
 
 pub use film::{Film, Pixel, Tile};

@@ -47,6 +47,7 @@ pub struct Scene {
 pub(crate) fn pack_for_tests(
     volume: &crate::volume::Volume,
     maps: &crate::volume::FieldMaps,
+    interpolation: Interpolation,
 ) -> Result<Medium, PackingError> {
     let fields = packing::Fields {
         volume,
@@ -54,7 +55,7 @@ pub(crate) fn pack_for_tests(
         amounts: [1.0, 1.0],
         ambient_k: 300.0,
         gas: packing::GasFields::default(),
-        interpolation: Interpolation::default(),
+        interpolation,
     };
     fields.pack(&glam::DAffine3::IDENTITY, &crate::volume::Limits::default())
 }

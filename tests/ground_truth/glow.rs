@@ -263,3 +263,44 @@ fn what_is_not_asked_for_changes_no_bit() {
     assert!(switched.flame.glow().is_empty());
     assert_eq!(Switch::default(), Switch::Auto);
 }
+
+#[test]
+fn no_extreme_of_gas_and_soot_spoils_a_pixel() {
+    let salts = [
+        "none",
+        "sodium",
+        "potassium",
+        "strontium-chloride",
+        "copper-chloride",
+    ];
+    for salt in salts {
+        for ppm in [1e-6, 1.0, 1e5] {
+            for kelvin in [1.0, 950.0, 2500.0, 6000.0] {
+                for soot in [0.0, 1e-9, 1e-3] {
+                    let asked = [
+                        format!("fuel.salt={salt}"),
+                        format!("fuel.salt_ppm={ppm}"),
+                        "fuel.blue_glow=10000".to_owned(),
+                        "effects.chemiluminescence=on".to_owned(),
+                        "air.temperature_k=400".to_owned(),
+                    ];
+                    let asked = asked.each_ref().map(String::as_str);
+                    // Hot on one side only: cold vapour in front of a furnace, and behind it.
+                    let scene = scene(
+                        |_| soot,
+                        |d| if d < 0.5 { kelvin } else { 1500.0 },
+                        8,
+                        &asked,
+                    );
+                    for step in [0.01, 1.0, 64.0] {
+                        let set = WavelengthSet::Fitted(6).wavelengths(scene.flame.soot());
+                        let light = xyz(&scene, set, step);
+                        let case = format!("{salt} {ppm} ppm, {kelvin} K, f_v {soot}, step {step}");
+                        assert!(light.iter().all(|v| v.is_finite()), "{case}: {light:?}");
+                        assert!(light[1] >= 0.0, "{case}: {light:?}");
+                    }
+                }
+            }
+        }
+    }
+}

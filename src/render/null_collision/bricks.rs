@@ -1,10 +1,10 @@
 //! Where collisions may be: bounds of each brick, and a ray's way through the bricks.
 
-use glam::IVec3;
 use rayon::prelude::*;
 
 use crate::math::Ray;
-use crate::scene::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK};
+use crate::render::walk::{Stretch, for_each_stretch};
+use crate::scene::medium::{BRICK_SAMPLES, Medium};
 
 use super::optics::{Optics, Place};
 
@@ -16,16 +16,6 @@ pub(super) struct Bounds {
     pub(super) extinction: f64,
     /// Brightest sample, in the measure of [`Optics::glow`].
     pub(super) glow: f64,
-}
-
-/// Part of a ray inside one stored brick.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stretch {
-    /// Which brick.
-    pub(super) slot: u32,
-    /// Where it begins and ends, metres along the ray.
-    pub(super) from: f64,
-    pub(super) to: f64,
 }
 
 /// Bounds of all stored bricks, in the order of their slots.
@@ -58,121 +48,12 @@ pub(super) fn bounds(medium: &Medium, optics: &Optics) -> Vec<Bounds> {
         .collect()
 }
 
-/// Collects the stretches of a ray of the lattice in stored bricks, nearest first, between two parameters that lie in
-/// the domain (Amanatides & Woo 1987).
-pub(super) fn stretches(
-    medium: &Medium,
-    ray: &Ray,
-    [enter, exit]: [f64; 2],
-    found: &mut Vec<Stretch>,
-) {
+/// Collects the stretches of a ray of the lattice that have a length.
+pub(super) fn stretches(medium: &Medium, ray: &Ray, range: [f64; 2], found: &mut Vec<Stretch>) {
     found.clear();
-    let limit = medium.bricks.as_ivec3();
-    if limit.min_element() == 0 {
-        return;
-    }
-    let edge = BRICK as f64;
-    let mut brick = (ray.at(enter) / edge)
-        .floor()
-        .as_ivec3()
-        .clamp(IVec3::ZERO, limit - 1);
-    let step = ray
-        .direction
-        .to_array()
-        .map(|d| if d < 0.0 { -1 } else { 1 });
-    let border = |axis: usize, brick: i32| {
-        let plane = f64::from(brick + i32::from(step[axis] > 0)) * edge;
-        if ray.direction[axis] == 0.0 {
-            f64::INFINITY
-        } else {
-            (plane - ray.origin[axis]) / ray.direction[axis]
+    for_each_stretch(medium, ray, range, |stretch| {
+        if stretch.to > stretch.from {
+            found.push(stretch);
         }
-    };
-    let mut next: [f64; 3] = std::array::from_fn(|axis| border(axis, brick[axis]));
-    let mut from = enter;
-    loop {
-        let axis = (1..3).fold(
-            0,
-            |best, axis| if next[axis] < next[best] { axis } else { best },
-        );
-        let to = next[axis].min(exit);
-        let slot = medium.table[medium.brick_index(brick.as_uvec3())];
-        if slot != NO_BRICK && to > from {
-            found.push(Stretch { slot, from, to });
-        }
-        brick[axis] += step[axis];
-        if next[axis] >= exit || brick[axis] < 0 || brick[axis] >= limit[axis] {
-            return;
-        }
-        from = from.max(to);
-        next[axis] = border(axis, brick[axis]);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use glam::{DAffine3, DVec3};
-    use proptest::prelude::*;
-
-    use super::*;
-    use crate::volume::{Border, FieldMap, FieldMaps, Grid, Volume};
-
-    /// 24³ voxels of 1 m, a few blocks of which hold soot.
-    fn sparse(seed: u32) -> Medium {
-        let soot = move |voxel: IVec3| {
-            let block = voxel / 5;
-            let number = (block.x + 5 * block.y + 25 * block.z) as u32;
-            let [hash, ..] = crate::math::random::philox([number, 0, 0, 0], [seed, 0]);
-            if hash >> 29 == 0 { 1e-6 } else { 0.0 }
-        };
-        let grid = Grid::from_fn(
-            "soot",
-            IVec3::splat(24),
-            DAffine3::IDENTITY,
-            Border::Background,
-            0.0,
-            soot,
-        );
-        let maps = FieldMaps {
-            soot: Some(FieldMap::new("soot", 1.0, 0.0, 0.0, 1.0)),
-            ..FieldMaps::default()
-        };
-        let volume = Volume::from_grids(vec![grid], "sparse");
-        crate::scene::pack_for_tests(&volume, &maps).unwrap()
-    }
-
-    proptest! {
-        /// Stretches come in order, apart, and hold every point with soot: along axes, planes and any ray.
-        #[test]
-        fn every_point_with_soot_is_in_a_stretch(
-            seed in 0_u32..500,
-            origin in prop::array::uniform3(-40.0..60.0_f64),
-            direction in prop_oneof![
-                prop::array::uniform3(-1.0..1.0_f64),
-                prop::sample::select(vec![
-                    [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0], [-1.0, 1.0, -1.0],
-                ]),
-            ],
-            whole in any::<bool>(),
-        ) {
-            let medium = sparse(seed);
-            let origin = DVec3::from(origin);
-            let origin = if whole { origin.round() } else { origin };
-            let Some(ray) = Ray::new(origin, direction.into()) else { return Ok(()) };
-            let Some((local, range)) = medium.enter(&ray) else { return Ok(()) };
-            let mut found = Vec::new();
-            stretches(&medium, &local, range, &mut found);
-            prop_assert!(found.iter().all(|s| s.from < s.to && s.from >= range[0] && s.to <= range[1]));
-            prop_assert!(found.windows(2).all(|pair| pair[0].to <= pair[1].from), "{found:?}");
-            for i in 0..500 {
-                let t = range[0] + (range[1] - range[0]) * (f64::from(i) + 0.5) / 500.0;
-                // Within rounding of a border a point may belong to either side.
-                if medium.sample(local.at(t))[0] > 1e-18 {
-                    let held = found.iter().any(|s| s.from - 1e-9 <= t && t <= s.to + 1e-9);
-                    prop_assert!(held, "t = {t} is in no stretch: {found:?}");
-                }
-            }
-        }
-    }
+    });
 }

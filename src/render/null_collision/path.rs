@@ -7,10 +7,11 @@ use glam::DVec3;
 use crate::math::Ray;
 use crate::math::random::Stream;
 use crate::physics::phase::HenyeyGreenstein;
+use crate::render::walk::Stretch;
 use crate::scene::{Flame, Medium};
 use crate::spectral::Wavelengths;
 
-use super::bricks::{self, Bounds, Stretch};
+use super::bricks::{self, Bounds};
 use super::optics::{Local, Optics, Place};
 use super::params::Params;
 
