@@ -224,12 +224,12 @@ impl GlowLight {
     #[inline(always)]
     pub(super) fn flush(&mut self, table: &GlowTable, column_m: &Lanes) {
         for (i, absorption) in table.absorptions().enumerate() {
-            for lane in 0..LANES {
+            for (lane, column_m) in column_m.iter().enumerate() {
                 self.total[i][lane] += self.block[i][lane];
                 self.block[i][lane] = 0.0;
                 self.depth[i][lane] += self.block_depth[i][lane];
                 self.block_depth[i][lane] = 0.0;
-                self.transmittance[i][lane] = lanes::exp(-absorption * column_m[lane]);
+                self.transmittance[i][lane] = lanes::exp(-absorption * column_m);
             }
         }
     }

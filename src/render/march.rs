@@ -207,40 +207,10 @@ impl<const GAS: bool> Kernel for March<'_, GAS> {
         let mut transmittance = [[1.0_f32; LANES]; MAX_NODES];
         let mut block_radiance = [[0.0_f32; LANES]; MAX_NODES];
         let mut block_column = [0.0_f32; LANES];
-        let mut run = [0_usize; LANES];
-        let mut step: [u32; LANES] =
-            std::array::from_fn(|lane| self.packet.runs[lane].first().map_or(0, |first| first[0]));
-        let mut done: [bool; LANES] = std::array::from_fn(|lane| self.packet.runs[lane].is_empty());
+        let mut walk = Walk::new(&self.packet);
         let mut since_flush = 0;
         loop {
-            // Each ray takes its next sample; those that are through take an empty one.
-            let mut column = [0.0_f32; LANES];
-            let mut inverse_temperature = [1.0_f32; LANES];
-            let (mut flame, mut length) = ([0.0_f32; LANES], [0.0_f32; LANES]);
-            let mut active = 0;
-            for lane in 0..LANES {
-                if done[lane] {
-                    continue;
-                }
-                active += 1;
-                let share = if step[lane] == self.packet.last[lane] {
-                    self.packet.last_share[lane]
-                } else {
-                    1.0
-                };
-                let middle = f64::from(step[lane]) + 0.5 * f64::from(share);
-                let position: [f64; 3] = std::array::from_fn(|axis| {
-                    self.packet.start[lane][axis] + middle * self.packet.delta[lane][axis]
-                });
-                let [soot, temperature, burning] = lookup::<GAS>(self.medium, position);
-                column[lane] = soot * (self.step_m * share);
-                inverse_temperature[lane] = 1.0 / temperature;
-                if GAS {
-                    (flame[lane], length[lane]) = (burning, self.step_m * share);
-                }
-                (step[lane], run[lane], done[lane]) =
-                    advance(self.packet.runs[lane], step[lane], run[lane]);
-            }
+            let (step, active) = walk.next::<GAS>(&self);
             if active == 0 {
                 break;
             }
@@ -250,34 +220,27 @@ impl<const GAS: bool> Kernel for March<'_, GAS> {
             for (n, node) in nodes.iter().enumerate() {
                 let (transmittance, radiance) = (&mut transmittance[n], &mut block_radiance[n]);
                 for lane in 0..LANES {
-                    let wien = lanes::exp(-node.planck_exponent_k * inverse_temperature[lane]);
+                    let wien = lanes::exp(-node.planck_exponent_k * step.inverse_temperature[lane]);
                     let planck = node.planck_scale * wien / (1.0 - wien);
-                    let absorbed = -lanes::exp_m1(-node.absorption * column[lane]);
+                    let absorbed = -lanes::exp_m1(-node.absorption * step.column[lane]);
                     let emitted = transmittance[lane] * absorbed;
                     radiance[lane] += planck * emitted;
                     transmittance[lane] -= emitted;
                 }
             }
-            for lane in 0..LANES {
-                block_column[lane] += column[lane];
+            for (block, column) in block_column.iter_mut().zip(&step.column) {
+                *block += column;
             }
             if GAS {
-                let step = Step {
-                    column,
-                    inverse_temperature,
-                    flame,
-                    length,
-                };
                 glow.step(self.glow, &step);
             }
 
             since_flush += 1;
             if since_flush == FLUSH {
                 since_flush = 0;
-                for lane in 0..LANES {
-                    light.column_m[lane] += block_column[lane];
-                    block_column[lane] = 0.0;
-                    done[lane] |= light.column_m[lane] > self.opaque;
+                for (lane, block) in block_column.iter_mut().enumerate() {
+                    light.column_m[lane] += std::mem::take(block);
+                    walk.done[lane] |= light.column_m[lane] > self.opaque;
                 }
                 for (n, node) in nodes.iter().enumerate() {
                     for lane in 0..LANES {
@@ -303,6 +266,62 @@ impl<const GAS: bool> Kernel for March<'_, GAS> {
             light.glow = glow.total;
         }
         light
+    }
+}
+
+/// Where each ray of a packet is on its way.
+struct Walk {
+    /// Which of its runs, and which step.
+    run: [usize; LANES],
+    step: [u32; LANES],
+    done: [bool; LANES],
+}
+
+impl Walk {
+    #[inline(always)]
+    fn new(packet: &Packet<'_>) -> Self {
+        Self {
+            run: [0; LANES],
+            step: std::array::from_fn(|lane| packet.runs[lane].first().map_or(0, |first| first[0])),
+            done: std::array::from_fn(|lane| packet.runs[lane].is_empty()),
+        }
+    }
+
+    /// Each ray takes its next sample; those that are through take an empty one. Also how many took one.
+    #[inline(always)]
+    fn next<const GAS: bool>(&mut self, march: &March<'_, GAS>) -> (Step, u64) {
+        let packet = &march.packet;
+        let mut taken = Step {
+            column: [0.0; LANES],
+            inverse_temperature: [1.0; LANES],
+            flame: [0.0; LANES],
+            length: [0.0; LANES],
+        };
+        let mut active = 0;
+        for lane in 0..LANES {
+            if self.done[lane] {
+                continue;
+            }
+            active += 1;
+            let share = if self.step[lane] == packet.last[lane] {
+                packet.last_share[lane]
+            } else {
+                1.0
+            };
+            let middle = f64::from(self.step[lane]) + 0.5 * f64::from(share);
+            let position: [f64; 3] = std::array::from_fn(|axis| {
+                packet.start[lane][axis] + middle * packet.delta[lane][axis]
+            });
+            let [soot, temperature, burning] = lookup::<GAS>(march.medium, position);
+            taken.column[lane] = soot * (march.step_m * share);
+            taken.inverse_temperature[lane] = 1.0 / temperature;
+            if GAS {
+                (taken.flame[lane], taken.length[lane]) = (burning, march.step_m * share);
+            }
+            (self.step[lane], self.run[lane], self.done[lane]) =
+                advance(packet.runs[lane], self.step[lane], self.run[lane]);
+        }
+        (taken, active)
     }
 }
 

@@ -139,9 +139,12 @@ fn by_brute_force(
     sum
 }
 
+/// Temperature (K) by depth, 0 to 1.
+type Profile = fn(f64) -> f64;
+
 #[test]
 fn a_line_in_gas_of_changing_heat_among_soot_agrees_with_its_profile_summed() {
-    let profiles: [(&str, fn(f64) -> f64); 3] = [
+    let profiles: [(&str, Profile); 3] = [
         ("a cool mantle before a hot core", |d| {
             1350.0 + 750.0 * (std::f64::consts::PI * d).sin()
         }),
