@@ -51,7 +51,7 @@ pub enum Curve {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Road {
-    /// The curve on each channel, as far as [`Curve::per_channel`] says.
+    /// The curve on each channel, as far as `Curve::per_channel` says.
     Channels = 0,
     /// The curve on the brightest channel, and only less colour at the same hue.
     HueOfBrightest = 1,

@@ -19,7 +19,7 @@
 //! | xyz | tristimulus values | W m⁻² sr⁻¹ |
 //! | rgb, v, m | linear Rec. 709 light, 1 = display white | 1 |
 //! | y, w | the tone curve and the path to white, see [`Curve`] | 1 |
-//! | paled | with less colour at the same hue, see [`super::hue`] | 1 |
+//! | paled | with less colour at the same hue, see `colour::hue` | 1 |
 //!
 //! y channel by channel turns a bright orange to yellow, as film and sensors do, and the mix with white takes the
 //! brightest part from yellow to white. On the hue's road only the colourfulness changes. The brightest channel, or the
