@@ -4,9 +4,10 @@ use serde_json::{Value, json};
 
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::display::Curve;
-use crate::project::Job;
+use crate::project::{Job, Project};
 use crate::render::develop::{Metering, ViewParams};
-use crate::render::{Flaws, Frame};
+use crate::render::plan::Plan;
+use crate::render::{Flaws, Frame, Switch};
 use crate::scene::{Scene, WavelengthSet};
 
 /// Wall-clock seconds of each step.
@@ -22,6 +23,7 @@ pub(super) struct Seconds {
 pub(super) struct Stats<'a> {
     pub(super) seconds: Seconds,
     pub(super) threads: usize,
+    pub(super) project: &'a Project,
     pub(super) job: &'a Job,
     pub(super) scene: &'a Scene,
     pub(super) frame: &'a Frame,
@@ -46,13 +48,12 @@ impl Stats<'_> {
             "threads": self.threads,
             "rays": self.frame.rays,
             "samples": self.frame.samples,
-            "plan": [{
-                "effect": "emission-absorption",
-                "state": "on",
-                "reason": "soot glows and absorbs: it is the picture",
-            }],
+            "plan": self.plan(),
             "flaws": self.flaws.iter().collect::<Vec<_>>(),
             "settings": self.settings(),
+            "fire": self.fire(),
+            // What --scene would read, were it TOML: the same picture again.
+            "scene": json!(self.project),
             "exposure": self.exposure(),
             "peak": {
                 "luminance_cd_m2": self.peak_luminance(),
@@ -67,6 +68,69 @@ impl Stats<'_> {
         })
     }
 
+    /// Which effects were computed, and why.
+    fn plan(&self) -> Value {
+        let effect = |effect: &str, on: bool, reason: &str| {
+            let state = if on { "on" } else { "off" };
+            json!({ "effect": effect, "state": state, "reason": reason })
+        };
+        let (flame, switches) = (&self.scene.flame, &self.project.effects);
+        let soot = flame.medium().peak_volume_fraction() > 0.0;
+        let lines = flame.glow().has_metal();
+        let radicals = Plan::new(self.scene, &self.job.settings)
+            .glow
+            .has_radicals();
+        let params = &self.job.flame;
+        json!([
+            effect(
+                "emission-absorption",
+                soot,
+                if soot {
+                    "soot glows and absorbs"
+                } else {
+                    "there is no soot"
+                }
+            ),
+            effect(
+                "lines",
+                lines,
+                match switches.lines {
+                    _ if lines => "there is a salt in the fuel",
+                    Switch::Off => "effects.lines is off",
+                    Switch::Auto | Switch::On => "there is no salt",
+                }
+            ),
+            effect(
+                "chemiluminescence",
+                radicals,
+                match switches.chemiluminescence {
+                    Switch::Off => "effects.chemiluminescence is off",
+                    _ if radicals => "gas burns, and its light can be seen beside the soot's",
+                    _ if params.glow.radicals <= 0.0 => "fuel.blue_glow is 0",
+                    Switch::Auto if params.maps.flame.is_none() => "no field says where gas burns",
+                    _ if !flame.glow().has_radicals() => "no radicals of this fuel glow",
+                    Switch::Auto | Switch::On => "soot outshines it",
+                }
+            ),
+        ])
+    }
+
+    /// What burns, as it was rendered.
+    fn fire(&self) -> Value {
+        let flame = &self.job.flame;
+        json!({
+            "fuel": flame.fuel.name(),
+            "soot_follows_fuel": self.job.soot_follows_fuel,
+            "soot_times_field": finite(flame.soot_amount),
+            "smoke_times_field": finite(flame.smoke_amount),
+            "soot_model": flame.soot_model.name(),
+            "soot_radius_nm": finite(flame.soot_radius_nm),
+            "salt": flame.glow.salt.name(),
+            "salt_ppm": finite(flame.glow.salt_ppm),
+            "blue_glow": finite(flame.glow.radicals),
+        })
+    }
+
     fn settings(&self) -> Value {
         let settings = &self.job.settings;
         json!({
@@ -78,6 +142,7 @@ impl Stats<'_> {
                 WavelengthSet::Plain(_) => "plain",
             },
             "samples_per_pixel": settings.samples_per_pixel,
+            "interpolation": self.job.flame.interpolation.name(),
         })
     }
 
@@ -86,6 +151,9 @@ impl Stats<'_> {
         let multiplier = view.exposure;
         json!({
             "relative_ev": self.view.exposure_ev,
+            "adaptation": self.view.adaptation,
+            "curve": self.view.curve,
+            "false_colour": self.view.false_colour,
             "multiplier": finite(multiplier),
             "white_xyz": view.white_xyz.map(finite),
             "white": match self.view.white_k {
