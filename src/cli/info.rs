@@ -140,6 +140,7 @@ fn burning(job: &Job) -> String {
     let mut text = format!("\nfuel      {}", flame.fuel.name());
     if job.soot_follows_fuel {
         let _ = match flame.fuel.row().soot_yield {
+            1.0 => Ok(()),
             times if times > 0.0 => write!(text, ": {} × the soot of propane", figures(times)),
             _ => write!(text, ": burns without soot"),
         };

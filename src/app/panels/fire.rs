@@ -108,8 +108,10 @@ fn fuel(
     job: Option<&Job>,
     [idle, idle_model]: [Option<String>; 2],
 ) {
+    let tips: Vec<String> = Fuel::all().map(about_fuel).collect();
     let options: Vec<(Fuel, String, &str)> = Fuel::all()
-        .map(|fuel| (fuel, fuel.row().label.to_owned(), fuel.row().source))
+        .zip(&tips)
+        .map(|(fuel, tip)| (fuel, fuel.row().label.to_owned(), tip.as_str()))
         .collect();
     Choice {
         label: "Fuel",
@@ -120,14 +122,9 @@ fn fuel(
         idle,
     }
     .show(ui, &mut project.fuel.name);
-    let times = project.fuel.name.row().soot_yield;
-    if job.is_some_and(|job| job.soot_follows_fuel) && times != 1.0 {
-        let words = if times > 0.0 {
-            format!("{} × the soot of propane", short(times))
-        } else {
-            "burns without soot".to_owned()
-        };
-        note(ui, &words);
+    let fuel = project.fuel.name;
+    if job.is_some_and(|job| job.soot_follows_fuel) && fuel != Fuel::default() {
+        note(ui, &soot_of(fuel));
     }
     let words = |model: SootModel| match model {
         SootModel::Chang => ("Chang 1990", "One index for the soot of all fuels."),
@@ -155,11 +152,56 @@ fn fuel(
     .show(ui, &mut project.soot.model);
 }
 
+/// How much soot a fuel makes, in words.
+fn soot_of(fuel: Fuel) -> String {
+    let times = fuel.row().soot_yield;
+    if times > 0.0 {
+        format!("{} × the soot of propane", short(times))
+    } else {
+        "burns without soot".to_owned()
+    }
+}
+
+/// What a fuel is like, and who says so.
+fn about_fuel(fuel: Fuel) -> String {
+    let row = fuel.row();
+    let blue = if row.radicals == [0.0; 3] {
+        "no blue glow"
+    } else {
+        "a blue glow where it burns"
+    };
+    format!("{}, {blue}. {}", soot_of(fuel), row.source)
+}
+
+/// Where a salt's light lies.
+fn about_salt(salt: Salt) -> String {
+    let row = salt.row();
+    let mut lines: Vec<i32> = row
+        .lines
+        .iter()
+        .map(|line| line.lambda_nm.round() as i32)
+        .collect();
+    lines.sort_unstable();
+    lines.dedup();
+    let lines: Vec<String> = lines.iter().map(i32::to_string).collect();
+    let bands = if row.molecules.is_empty() {
+        ""
+    } else {
+        ", and bands of its molecules"
+    };
+    match lines.as_slice() {
+        [] => "Fuel and air alone.".to_owned(),
+        lines => format!("Lines at {} nm{bands}.", lines.join(", ")),
+    }
+}
+
 /// What glows in the gas beside soot.
 fn glow(ui: &mut Ui, project: &mut Project, [idle_salt, idle_blue]: [Option<String>; 2]) {
     let default = FuelSettings::default();
+    let tips: Vec<String> = Salt::all().map(about_salt).collect();
     let options: Vec<(Salt, String, &str)> = Salt::all()
-        .map(|salt| (salt, salt.row().label.to_owned(), ""))
+        .zip(&tips)
+        .map(|(salt, tip)| (salt, salt.row().label.to_owned(), tip.as_str()))
         .collect();
     Choice {
         label: "Salt",
