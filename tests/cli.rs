@@ -7,6 +7,7 @@ use sootlight::project::Project;
 use sootlight::project::file::SceneFileError;
 
 mod errors;
+mod fire;
 mod outputs;
 mod place;
 mod spectrum;

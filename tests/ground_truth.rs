@@ -63,6 +63,7 @@ fn settings(size: u32, step_voxels: f64, set: WavelengthSet) -> Settings {
         wavelengths: set,
         samples_per_pixel: 1,
         effects: Effects {
+            lines: Switch::Auto,
             chemiluminescence: Switch::Auto,
         },
     }

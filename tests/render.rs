@@ -18,6 +18,7 @@ const SETTINGS: Settings = Settings {
     wavelengths: WavelengthSet::Fitted(6),
     samples_per_pixel: 2,
     effects: Effects {
+        lines: Switch::Auto,
         chemiluminescence: Switch::Auto,
     },
 };
@@ -75,6 +76,7 @@ fn a_coarse_pass_is_the_picture_in_small() {
         size: [160, 200],
         samples_per_pixel: 1,
         effects: Effects {
+            lines: Switch::Auto,
             chemiluminescence: Switch::Auto,
         },
         ..SETTINGS

@@ -3,6 +3,7 @@
 mod canvas;
 mod controls;
 mod export;
+mod fire;
 mod opening;
 mod plots;
 mod real;

@@ -115,6 +115,10 @@ impl App {
             .into_iter()
             .filter_map(|(modifiers, key, command)| pressed(modifiers, key).then_some(command))
             .collect();
+        // A menu that is open is what is meant: it closes itself.
+        if egui::Popup::is_any_open(ctx) {
+            return commands;
+        }
         if self.loader.loading().is_some() && pressed(Modifiers::NONE, Key::Escape) {
             commands.push(Command::CancelLoading);
         } else if pressed(Modifiers::NONE, Key::Escape) {

@@ -59,6 +59,8 @@ pub struct App {
     panels: Panels,
     plots: Plots,
     recent: Recent,
+    /// Whether brightness and white are to be measured again, on the next picture.
+    expose_anew: bool,
     /// What went wrong last, until it is dismissed.
     notice: Option<String>,
     /// Whether somebody wants to close the window while it exports.
@@ -114,6 +116,7 @@ impl App {
             panels: Panels::default(),
             plots: Plots::default(),
             recent: Recent::load(creation.storage),
+            expose_anew: false,
             notice: None,
             closing: Closing::default(),
             title: String::new(),

@@ -41,6 +41,8 @@ impl App {
         } else {
             self.document
                 .change(|document| preset.apply(&mut document.project));
+            // What burns otherwise may be a thousand times as bright.
+            self.expose_anew = true;
         }
     }
 

@@ -62,11 +62,21 @@ impl App {
         let Some(submitted) = &self.submitted else {
             return;
         };
-        if self.shows_newest() {
-            let (flame, known) = (&submitted.job.flame, self.document.metering);
-            if let Some(metering) = self.meter.follow(&self.picture, flame, known) {
-                self.document.measured(metering);
-            }
+        if !self.shows_newest() {
+            return;
+        }
+        let flame = &submitted.job.flame;
+        // A picture from before the change says nothing of what is to be exposed anew.
+        if self.expose_anew && self.document.last_job() == Some(&submitted.job) {
+            self.expose_anew = false;
+            let metering = self.meter.follow(&self.picture, flame, None);
+            // Undo brings back what was measured before the change.
+            self.document.metering = metering.or(self.document.metering);
+        } else if let Some(metering) =
+            self.meter
+                .follow(&self.picture, flame, self.document.metering)
+        {
+            self.document.measured(metering);
         }
     }
 

@@ -15,7 +15,7 @@ use crate::volume::{
 pub(super) fn run(project: &Project) -> Result<(), CliError> {
     let volume = load::volume(project)?;
     let summary = summarise(&volume, project.volume.producer);
-    let mut text = sources(&summary);
+    let mut text = sources(&summary, project);
     text.push_str(&grids(&summary));
     text.push_str(&producer(&summary, project));
     let job = project.job(&volume);
@@ -32,13 +32,14 @@ pub(super) fn run(project: &Project) -> Result<(), CliError> {
     job.map(|_| ()).map_err(CliError::project)
 }
 
-fn sources(summary: &Summary) -> String {
+fn sources(summary: &Summary, project: &Project) -> String {
     let mut text = String::new();
     for path in &summary.sources {
         let _ = writeln!(text, "{}", path.display());
     }
     if summary.sources.is_empty() {
-        text.push_str("the built-in flame\n");
+        let name = project.volume.built_in.name();
+        let _ = writeln!(text, "the built-in flame, {name}");
     }
     let _ = write!(text, "format    {}", summary.format.name());
     if let Some(creator) = &summary.creator {
@@ -128,7 +129,33 @@ fn made_of_it(job: &Job, volume: &Volume) -> String {
         ]);
     }
     text.push_str(&table.to_string());
+    text.push_str(&burning(job));
     text.push_str(&flaws(&job.flaws.iter().collect::<Vec<_>>()));
+    text
+}
+
+/// What burns, and what that does to the fields.
+fn burning(job: &Job) -> String {
+    let flame = &job.flame;
+    let mut text = format!("\nfuel      {}", flame.fuel.name());
+    if job.soot_follows_fuel {
+        let _ = match flame.fuel.row().soot_yield {
+            1.0 => Ok(()),
+            times if times > 0.0 => write!(text, ": {} × the soot of propane", figures(times)),
+            _ => write!(text, ": burns without soot"),
+        };
+    }
+    let _ = writeln!(
+        text,
+        "\namounts   {} × the soot field, {} × the smoke field",
+        figures(flame.soot_amount),
+        figures(flame.smoke_amount)
+    );
+    let salt = flame.glow.salt;
+    if !salt.is_none() {
+        let ppm = figures(flame.glow.salt_ppm);
+        let _ = writeln!(text, "salt      {}, {ppm} ppm", salt.name());
+    }
     text
 }
 

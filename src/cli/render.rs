@@ -45,16 +45,16 @@ impl Render {
             write,
         };
         if let Some(path) = &self.stats {
-            let view = self.project.view();
             let (threads, metering, flaws) = (self.threads, &metering, &flaws);
             let stats = Stats {
                 seconds,
                 threads,
+                project: &self.project,
                 job: &still.job,
                 scene: &scene,
                 frame: &frame,
                 metering,
-                view: &view,
+                view: &self.project.view(),
                 flaws,
             };
             let text = format!("{:#}\n", stats.to_json());

@@ -87,17 +87,21 @@ impl Spectrum {
             flame.soot_radius_nm
         ));
         line(format!(
-            "soot volume fraction: {:e}{}; with soot.amount, fuel and radius, {} times the field: {:e}",
-            place.soot_volume_fraction,
+            "soot volume fraction: {:e}{}; with soot.amount, fuel and radius: {:e}",
+            legible(place.soot_volume_fraction),
             from(self.soot, "the densest"),
-            curves.soot_volume_fraction() / place.soot_volume_fraction.max(f64::MIN_POSITIVE),
-            curves.soot_volume_fraction()
+            legible(curves.soot_volume_fraction())
         ));
         line(format!(
-            "temperature: {} K{}; progress of the reaction: {}",
-            place.temperature_k,
+            "temperature: {} K{}; progress of the reaction: {}{}",
+            legible(place.temperature_k),
             from(self.temperature_k, "the hottest"),
-            place.flame
+            place.flame,
+            if self.flame.is_some() {
+                ""
+            } else {
+                " (assumed)"
+            }
         ));
         line(format!(
             "air: {} K, {} Pa, humidity {}, {} ppm CO2: {:.6} of its molecules are water",
@@ -125,6 +129,11 @@ impl Spectrum {
         ));
         text
     }
+}
+
+/// A number without the digits that a file's f32 has not.
+fn legible(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 fn table(text: &mut String, rows: &[Row]) {

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::display::Curve;
-use crate::project::Job;
+use crate::project::{Job, Project};
 use crate::render::develop::{Metering, ViewParams};
 use crate::render::{Flaws, Frame};
 use crate::scene::{Scene, WavelengthSet};
@@ -22,6 +22,7 @@ pub(super) struct Seconds {
 pub(super) struct Stats<'a> {
     pub(super) seconds: Seconds,
     pub(super) threads: usize,
+    pub(super) project: &'a Project,
     pub(super) job: &'a Job,
     pub(super) scene: &'a Scene,
     pub(super) frame: &'a Frame,
@@ -49,6 +50,9 @@ impl Stats<'_> {
             "plan": self.plan(),
             "flaws": self.flaws.iter().collect::<Vec<_>>(),
             "settings": self.settings(),
+            "fire": self.fire(),
+            // What --scene would read, were it TOML: the same picture again.
+            "scene": json!(self.project),
             "exposure": self.exposure(),
             "peak": {
                 "luminance_cd_m2": self.peak_luminance(),
@@ -74,6 +78,22 @@ impl Stats<'_> {
         decisions.collect()
     }
 
+    /// What burns, as it was rendered.
+    fn fire(&self) -> Value {
+        let flame = &self.job.flame;
+        json!({
+            "fuel": flame.fuel.name(),
+            "soot_follows_fuel": self.job.soot_follows_fuel,
+            "soot_times_field": finite(flame.soot_amount),
+            "smoke_times_field": finite(flame.smoke_amount),
+            "soot_model": flame.soot_model.name(),
+            "soot_radius_nm": finite(flame.soot_radius_nm),
+            "salt": flame.glow.salt.name(),
+            "salt_ppm": finite(flame.glow.salt_ppm),
+            "blue_glow": finite(flame.glow.radicals),
+        })
+    }
+
     fn settings(&self) -> Value {
         let settings = &self.job.settings;
         json!({
@@ -94,6 +114,9 @@ impl Stats<'_> {
         let multiplier = view.exposure;
         json!({
             "relative_ev": self.view.exposure_ev,
+            "adaptation": self.view.adaptation,
+            "curve": self.view.curve,
+            "false_colour": self.view.false_colour,
             "multiplier": finite(multiplier),
             "white_xyz": view.white_xyz.map(finite),
             "white": match self.view.white_k {

@@ -24,13 +24,14 @@ impl Provenance {
         let software = concat!("sootlight ", env!("CARGO_PKG_VERSION")).to_owned();
         let mut comment = format!("Made by {software} from ");
         if project.volume.path.is_empty() {
-            comment.push_str("the built-in flame");
+            comment.push_str("the built-in flame, ");
+            comment.push_str(project.volume.built_in.name());
         }
         for (i, path) in project.volume.path.iter().enumerate() {
             let separator = if i == 0 { "" } else { ", " };
             let _ = write!(comment, "{separator}{}", described(path));
         }
-        comment.push_str(". Emission and absorption of soot, spectral.");
+        comment.push_str(". Emission and absorption, spectral.");
         for flaw in flaws.iter() {
             let _ = write!(comment, "\nFlaw: {flaw}");
         }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::job::Job;
 use super::settings::{CameraSettings, FieldSettings, Project};
 use crate::math::Aabb;
-use crate::scene::flame;
+use crate::scene::{Fuel, GlowParams, Salt, flame};
 use crate::volume::{FieldKind, GLOW_K, PEAK_K, figures};
 
 /// Why nothing is seen.
@@ -26,6 +26,8 @@ pub enum Mend {
     SootAmount,
     /// Take the smoke as the file has it.
     SmokeAmount,
+    /// Burn what makes soot.
+    Fuel,
     /// Take the field as the producer's preset does.
     Field(FieldKind),
     /// Heat: these factors from the file's numbers to kelvin.
@@ -48,13 +50,46 @@ impl Darkness {
         no_soot(job)
             .or_else(|| too_cold(job))
             .or_else(|| out_of_sight(job))
-            .unwrap_or_else(|| Self {
-                words: format!(
-                    "the picture is black: where the fire is above {GLOW_K} K there is too little soot to glow"
-                ),
-                mend: (job.flame.soot_amount < 1.0).then_some(Mend::SootAmount),
+            .unwrap_or_else(|| {
+                let what = if glows_beside_soot(job) {
+                    "what glows is too faint to be seen"
+                } else {
+                    "there is too little soot to glow"
+                };
+                let more = if burns_without_soot(job) {
+                    Mend::Fuel
+                } else {
+                    Mend::SootAmount
+                };
+                Self {
+                    words: format!(
+                        "the picture is black: where the fire is above {GLOW_K} K {what}"
+                    ),
+                    mend: (job.flame.soot_amount < 1.0).then_some(more),
+                }
             })
     }
+}
+
+/// Whether the fuel says how much soot there is, and that is none.
+fn burns_without_soot(job: &Job) -> bool {
+    job.soot_follows_fuel && job.flame.fuel.row().soot_yield <= 0.0
+}
+
+/// Whether a salt or radicals may glow.
+fn glows_beside_soot(job: &Job) -> bool {
+    let flame = &job.flame;
+    let without = |glow: GlowParams| {
+        let mut other = flame.clone();
+        other.glow = glow;
+        other
+    };
+    let none = without(GlowParams {
+        salt: Salt::default(),
+        radicals: 0.0,
+        ..flame.glow
+    });
+    !flame.gives_same_light_as(&none)
 }
 
 fn no_soot(job: &Job) -> Option<Darkness> {
@@ -62,10 +97,16 @@ fn no_soot(job: &Job) -> Option<Darkness> {
     let amounts = [flame.soot_amount, flame.smoke_amount];
     let kinds = [FieldKind::Soot, FieldKind::Smoke];
     let densest = |kind| physical_range(job, kind).map_or(0.0, |(_, high)| high);
-    if (0..2).any(|i| amounts[i] * densest(kinds[i]) > 0.0) {
+    if glows_beside_soot(job) || (0..2).any(|i| amounts[i] * densest(kinds[i]) > 0.0) {
         return None;
     }
-    Some(if densest(FieldKind::Soot) > 0.0 {
+    Some(if burns_without_soot(job) {
+        Darkness {
+            words: "the picture is black: this fuel burns without soot, and nothing else glows. Add a salt, or burn another"
+                .to_owned(),
+            mend: Some(Mend::Fuel),
+        }
+    } else if densest(FieldKind::Soot) > 0.0 {
         Darkness {
             words: "the picture is black: the amount of soot is 0".to_owned(),
             mend: Some(Mend::SootAmount),
@@ -160,6 +201,7 @@ impl Mend {
         match self {
             Self::SootAmount => "Set the soot amount to 1".to_owned(),
             Self::SmokeAmount => "Set the smoke amount to 1".to_owned(),
+            Self::Fuel => format!("Burn {}", Fuel::default().name()),
             Self::Field(kind) => format!("Read the {} as the preset does", kind.name()),
             Self::Heat { .. } => format!("Make the hottest voxel {PEAK_K} K"),
             Self::Camera => "Look at the fire".to_owned(),
@@ -171,6 +213,7 @@ impl Mend {
         match *self {
             Self::SootAmount => project.soot.amount = 1.0,
             Self::SmokeAmount => project.smoke.amount = 1.0,
+            Self::Fuel => project.fuel.name = Fuel::default(),
             Self::Field(kind) => *project.volume.field_mut(kind) = FieldSettings::default(),
             Self::Heat { scale, offset } => {
                 let grid = project.volume.temperature.grid.take();
@@ -213,6 +256,24 @@ mod tests {
     fn every_black_picture_is_mended_by_its_button() {
         for (assignments, reason) in [
             (&["soot.amount=0"][..], "amount of soot is 0"),
+            (&["fuel.name=methanol"], "burns without soot"),
+            (
+                &[
+                    "fuel.name=methanol",
+                    "fuel.salt=copper",
+                    "fuel.salt_ppm=1e-30",
+                ],
+                "too faint",
+            ),
+            (
+                &[
+                    "soot.amount=0",
+                    "fuel.salt=sodium",
+                    "volume.temperature.scale=0.2",
+                    "volume.temperature.min=0",
+                ],
+                "no voxel is above 700 K",
+            ),
             (&["volume.soot.scale=0"], "no voxel holds soot"),
             (
                 &["volume.temperature.scale=0.2", "volume.temperature.min=0"],

@@ -185,6 +185,7 @@ impl Project {
             wavelengths: self.render.wavelengths.unwrap_or(wavelengths),
             samples_per_pixel: self.render.samples_per_pixel.unwrap_or(samples_per_pixel),
             effects: Effects {
+                lines: self.effects.lines,
                 chemiluminescence: self.effects.chemiluminescence,
             },
         }

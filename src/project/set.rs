@@ -30,7 +30,7 @@ pub enum SetError {
         hint: String,
     },
     /// The value is not of the key's kind.
-    #[error("{key} is {found}: expected {expects}")]
+    #[error("{key} is {found}: expected {expects}{hint}")]
     WrongValue {
         /// The dotted key.
         key: String,
@@ -38,6 +38,8 @@ pub enum SetError {
         found: String,
         /// What the key takes.
         expects: String,
+        /// "; did you mean …?" or nothing.
+        hint: String,
     },
 }
 
@@ -86,11 +88,25 @@ impl Key {
         } else {
             found
         };
+        let meant = did_you_mean(&found, self.names());
         SetError::WrongValue {
             key: self.name.to_owned(),
+            hint: meant.map_or_else(String::new, |name| format!("; did you mean {name}?")),
             found,
             expects: self.expects.to_owned(),
         }
+    }
+
+    /// The names that it takes, if it takes names.
+    fn names(&self) -> impl Iterator<Item = &'static str> {
+        let pieces = self
+            .expects
+            .split(", ")
+            .flat_map(|piece| piece.split(" or "));
+        pieces.filter(|piece| {
+            let is_letter = |c: char| c.is_ascii_lowercase() || c == '-';
+            !piece.is_empty() && piece.chars().all(is_letter)
+        })
     }
 
     /// Whether a value is of this key's kind.
@@ -282,6 +298,9 @@ mod tests {
                 find("render.wavelengths").unwrap().expects
             )
         );
+        assert!(error("fuel.name=propan").ends_with("or black-body; did you mean propane?"));
+        assert!(error("fuel.salt=Sodium").ends_with("; did you mean sodium?"));
+        assert!(!error("view.curve=aces").contains("did you mean"));
         assert!(error("soot.amount=\"2\"\nsoot.radius_nm=3").contains("expected a number"));
         assert_eq!(project, Project::default());
     }

@@ -53,6 +53,8 @@ pub struct Settings {
 /// Which effects are computed; what is not in the scene costs nothing either way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Effects {
+    /// Lines and bands of a salt's metal. Auto: where there is a salt.
+    pub lines: Switch,
     /// Light of radicals in the reaction zone. Auto: unless soot outshines it.
     pub chemiluminescence: Switch,
 }

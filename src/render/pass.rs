@@ -168,6 +168,7 @@ mod tests {
         wavelengths: WavelengthSet::Fitted(4),
         samples_per_pixel: 3,
         effects: Effects {
+            lines: Switch::Auto,
             chemiluminescence: Switch::Auto,
         },
     };

@@ -4,7 +4,7 @@
 //! in nm, Planck's constants per nm).
 
 use super::glow::GlowTable;
-use super::{Flaws, Settings, Switch};
+use super::{Effects, Flaws, Settings, Switch};
 use crate::colour::cie;
 use crate::physics::blackbody;
 use crate::scene::Scene;
@@ -68,7 +68,7 @@ impl Plan {
     pub fn new(scene: &Scene, settings: &Settings) -> Self {
         let wavelengths = settings.wavelengths.wavelengths(scene.flame.soot());
         let mut features = scene.flame.glow().features();
-        let decisions = decisions(scene, &features, settings.effects.chemiluminescence);
+        let decisions = decisions(scene, &features, settings.effects);
         let is_on = |effect: &str| decisions.iter().any(|it| it.effect == effect && it.on);
         let with_radicals = is_on(CHEMILUMINESCENCE);
         features.retain(|feature| with_radicals || !feature.is_radical());
@@ -141,25 +141,26 @@ impl Plan {
 const CHEMILUMINESCENCE: &str = "chemiluminescence";
 
 /// Which effects a scene calls for.
-fn decisions(scene: &Scene, features: &[Feature], radicals: Switch) -> Vec<Decision> {
+fn decisions(scene: &Scene, features: &[Feature], effects: Effects) -> Vec<Decision> {
     let decision = |effect, on, reason| Decision { effect, on, reason };
     let glow = scene.flame.glow();
     vec![
-        decision(
-            "emission-absorption",
-            true,
-            "soot glows and absorbs: it is the picture",
-        ),
-        if glow.has_metal() {
-            decision("lines", true, "there is a salt in the gas")
+        if scene.flame.medium().peak_volume_fraction() > 0.0 {
+            decision("emission-absorption", true, "soot glows and absorbs")
         } else {
-            decision("lines", false, "there is no salt, or it was switched off")
+            decision("emission-absorption", false, "there is no soot")
         },
-        match radicals {
+        match effects.lines {
+            Switch::Off => decision("lines", false, "effects.lines is off"),
+            _ if glow.has_metal() => decision("lines", true, "there is a salt in the gas"),
+            Switch::Auto | Switch::On => decision("lines", false, "there is no salt"),
+        },
+        match effects.chemiluminescence {
+            Switch::Off => decision(CHEMILUMINESCENCE, false, "effects.chemiluminescence is off"),
             _ if !glow.has_radicals() => decision(
                 CHEMILUMINESCENCE,
                 false,
-                "nothing says what burns, the fuel does not glow, or it was switched off",
+                "no field says where gas burns, or nothing that glows is burnt there",
             ),
             Switch::Auto if radicals_are_outshone(scene, features) => decision(
                 CHEMILUMINESCENCE,
@@ -172,7 +173,6 @@ fn decisions(scene: &Scene, features: &[Feature], radicals: Switch) -> Vec<Decis
                 "burning gas may be seen beside the soot",
             ),
             Switch::On => decision(CHEMILUMINESCENCE, true, "it was asked for"),
-            Switch::Off => decision(CHEMILUMINESCENCE, false, "it was switched off"),
         },
     ]
 }

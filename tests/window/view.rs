@@ -153,3 +153,17 @@ fn false_colour_comes_with_a_legend_in_stops_and_luminance() {
     assert!(harness.query_by_label_contains("+3, ").is_none());
     harness.get_by_label_contains("+2, ");
 }
+
+#[test]
+fn the_legend_leaves_the_buttons_of_a_narrow_window_alone() {
+    for width in [480.0, 560.0, 640.0, 900.0] {
+        let mut project = Project::default();
+        project.set("view.false_colour=true").unwrap();
+        let harness = window_of(project, [width, 420.0]);
+        let black = harness.get_by_label_contains("black, below ").rect();
+        for button in ["Zoom in", "Fit", "Frame all"] {
+            let button = harness.get_by_role_and_label(Role::Button, button).rect();
+            assert!(!button.intersects(black), "{width}: {button:?} {black:?}");
+        }
+    }
+}

@@ -12,6 +12,8 @@ const ROW: f32 = 26.0;
 const GAP: f32 = 8.0;
 /// Width of all buttons in one row, points: a narrower canvas gets two.
 const WIDTH: f32 = 286.0;
+/// Width of the wider one of two rows.
+const NARROW: f32 = 162.0;
 /// Width of the number, points: it does not move the buttons while it runs.
 const NUMBER: f32 = 52.0;
 
@@ -54,13 +56,24 @@ const OTHERS: [Entry; 3] = [
 const ZOOM_TIP: &str = "Screen pixels for a pixel of the picture. Ctrl and the wheel, or a pinch, change it; the right \
                         button, or Space and the left one, move the picture. Nothing is rendered again.";
 
+/// Where they are on a canvas: one row, or two where it is narrow.
+pub(in crate::app) fn place(canvas: Rect) -> Rect {
+    let wide = canvas.width() >= WIDTH + 2.0 * GAP;
+    let size = if wide {
+        vec2(WIDTH, ROW)
+    } else {
+        vec2(NARROW, 2.0 * ROW)
+    };
+    let corner = pos2(canvas.min.x + GAP, canvas.max.y - GAP - size.y);
+    Rect::from_min_size(corner, size)
+}
+
 /// Draws them over a canvas whose picture has this zoom. Returns what was pressed.
 pub(super) fn show(ui: &mut Ui, canvas: Rect, zoom: f64, is_fit: bool) -> Vec<Action> {
-    let wide = canvas.width() >= WIDTH + 2.0 * GAP;
-    let height = if wide { ROW } else { 2.0 * ROW };
-    let corner = pos2(canvas.min.x + GAP, canvas.max.y - GAP - height);
+    let place = place(canvas);
+    let wide = place.height() <= ROW;
     let builder = UiBuilder::new()
-        .max_rect(Rect::from_min_size(corner, vec2(WIDTH, height)))
+        .max_rect(Rect::from_min_size(place.min, vec2(WIDTH, place.height())))
         .layout(Layout::top_down(Align::Min));
     let mut pressed = Vec::new();
     let size = |ui: &mut Ui, pressed: &mut Vec<Action>| {

@@ -15,6 +15,7 @@ use egui::{
     Color32, InputState, Label, Pos2, Rect, Response, Role, Sense, Shape, Ui, WidgetInfo, vec2,
 };
 
+pub(super) use self::buttons::place as buttons_place;
 pub use self::display::Display;
 pub use self::placement::Mapping;
 

@@ -28,7 +28,12 @@ pub(super) fn show(
     section(ui, "Fire", true, |ui| {
         presets(ui, commands);
         let idle = |control| job.and_then(|job| why_idle(job, control));
-        fuel(ui, project, [Control::Fuel, Control::SootModel].map(idle));
+        fuel(
+            ui,
+            project,
+            job,
+            [Control::Fuel, Control::SootModel].map(idle),
+        );
         radius(ui, project, [Control::SootRadius, Control::Hold].map(idle));
         let default = SootSettings::default();
         Knob {
@@ -43,9 +48,15 @@ pub(super) fn show(
             idle: idle(Control::SootAmount),
         }
         .show(ui, &mut project.soot.amount);
-        let smokes = job.is_some_and(|job| job.flame.maps.smoke.is_some());
-        if project.soot.amount <= 0.0 && project.smoke.amount > 0.0 && smokes {
-            note(ui, "what still glows is smoke");
+        let smoke_alone = |job: &Job| {
+            let flame = &job.flame;
+            flame.soot_amount <= 0.0 && flame.smoke_amount > 0.0 && flame.maps.smoke.is_some()
+        };
+        if job.is_some_and(smoke_alone) {
+            note(
+                ui,
+                "what still glows like soot is smoke: its amount is under Heat and smoke",
+            );
         }
         glow(
             ui,
@@ -91,18 +102,30 @@ fn presets(ui: &mut Ui, commands: &mut Vec<Command>) {
     });
 }
 
-fn fuel(ui: &mut Ui, project: &mut Project, [idle, idle_model]: [Option<String>; 2]) {
+fn fuel(
+    ui: &mut Ui,
+    project: &mut Project,
+    job: Option<&Job>,
+    [idle, idle_model]: [Option<String>; 2],
+) {
+    let tips: Vec<String> = Fuel::all().map(about_fuel).collect();
     let options: Vec<(Fuel, String, &str)> = Fuel::all()
-        .map(|fuel| (fuel, fuel.row().label.to_owned(), fuel.row().source))
+        .zip(&tips)
+        .map(|(fuel, tip)| (fuel, fuel.row().label.to_owned(), tip.as_str()))
         .collect();
     Choice {
         label: "Fuel",
         options: &options,
-        tip: "What burns. Soot of each fuel was measured to absorb, and so to glow, differently over the colours.",
+        tip: "What burns. Each fuel glows blue in its own way where it burns, and its soot was measured to absorb, and so \
+              to glow, differently over the colours. Where the file does not say how much soot there is, the fuel does.",
         default: Fuel::default(),
         idle,
     }
     .show(ui, &mut project.fuel.name);
+    let fuel = project.fuel.name;
+    if job.is_some_and(|job| job.soot_follows_fuel) && fuel != Fuel::default() {
+        note(ui, &soot_of(fuel));
+    }
     let words = |model: SootModel| match model {
         SootModel::Chang => ("Chang 1990", "One index for the soot of all fuels."),
         SootModel::DalzellSarofim => ("Dalzell & Sarofim 1969", "An index for each fuel's soot."),
@@ -129,11 +152,56 @@ fn fuel(ui: &mut Ui, project: &mut Project, [idle, idle_model]: [Option<String>;
     .show(ui, &mut project.soot.model);
 }
 
+/// How much soot a fuel makes, in words.
+fn soot_of(fuel: Fuel) -> String {
+    let times = fuel.row().soot_yield;
+    if times > 0.0 {
+        format!("{} × the soot of propane", short(times))
+    } else {
+        "burns without soot".to_owned()
+    }
+}
+
+/// What a fuel is like, and who says so.
+fn about_fuel(fuel: Fuel) -> String {
+    let row = fuel.row();
+    let blue = if row.radicals == [0.0; 3] {
+        "no blue glow"
+    } else {
+        "a blue glow where it burns"
+    };
+    format!("{}, {blue}. {}", soot_of(fuel), row.source)
+}
+
+/// Where a salt's light lies.
+fn about_salt(salt: Salt) -> String {
+    let row = salt.row();
+    let mut lines: Vec<i32> = row
+        .lines
+        .iter()
+        .map(|line| line.lambda_nm.round() as i32)
+        .collect();
+    lines.sort_unstable();
+    lines.dedup();
+    let lines: Vec<String> = lines.iter().map(i32::to_string).collect();
+    let bands = if row.molecules.is_empty() {
+        ""
+    } else {
+        ", and bands of its molecules"
+    };
+    match lines.as_slice() {
+        [] => "Fuel and air alone.".to_owned(),
+        lines => format!("Lines at {} nm{bands}.", lines.join(", ")),
+    }
+}
+
 /// What glows in the gas beside soot.
 fn glow(ui: &mut Ui, project: &mut Project, [idle_salt, idle_blue]: [Option<String>; 2]) {
     let default = FuelSettings::default();
+    let tips: Vec<String> = Salt::all().map(about_salt).collect();
     let options: Vec<(Salt, String, &str)> = Salt::all()
-        .map(|salt| (salt, salt.row().label.to_owned(), ""))
+        .zip(&tips)
+        .map(|(salt, tip)| (salt, salt.row().label.to_owned(), tip.as_str()))
         .collect();
     Choice {
         label: "Salt",

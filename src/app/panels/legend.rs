@@ -1,10 +1,11 @@
-//! The legend of false colours, over the lower right corner of the picture.
+//! The legend of false colours, over the lower right corner of the picture, above the buttons where it is narrow.
 
 use egui::{
     Align, Color32, Frame, Label, Layout, Margin, Rect, RichText, Sense, Ui, UiBuilder, vec2,
 };
 
 use super::short;
+use crate::app::canvas::buttons_place;
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::display::View;
 use crate::colour::false_colour::{Band, Level};
@@ -23,11 +24,19 @@ const WIDTH: f32 = 10.5;
 pub(super) fn show(ui: &mut Ui, view: &View, canvas: Rect) {
     let bands = view.bands();
     let rows = bands.len() as f32;
-    let space = canvas.shrink(GAP);
-    let row = (space.height() / (rows + 1.0)).clamp(ROW[0], ROW[1]);
-    let size = vec2(row * WIDTH, row * (rows + 0.5));
+    let place = |space: Rect| {
+        let row = (space.height() / (rows + 1.0)).clamp(ROW[0], ROW[1]);
+        let size = vec2(row * WIDTH, row * (rows + 0.5));
+        (row, Rect::from_min_size(space.max - size, size))
+    };
+    let mut space = canvas.shrink(GAP);
+    let buttons = buttons_place(canvas);
+    if place(space).1.intersects(buttons) {
+        space.max.y = buttons.min.y - GAP;
+    }
+    let (row, rect) = place(space);
     let builder = UiBuilder::new()
-        .max_rect(Rect::from_min_size(space.max - size, size))
+        .max_rect(rect)
         .layout(Layout::top_down(Align::Min));
     ui.scope_builder(builder, |ui| {
         ui.shrink_clip_rect(canvas);
@@ -59,7 +68,10 @@ pub(super) fn show(ui: &mut Ui, view: &View, canvas: Rect) {
 
 /// What a band stands for, where display white is so many cd m⁻².
 fn words(band: &Band, end: f64, white_cd_m2: f64) -> String {
-    let luminance = |share: f64| format!("{} cd/m²", short(share * white_cd_m2));
+    let luminance = |share: f64| match share * white_cd_m2 {
+        cd if cd < 1e5 => format!("{} cd/m²", short(cd)),
+        cd => format!("{} kcd/m²", short(1e-3 * cd)),
+    };
     match band.level {
         Level::Black => format!("black, below {}", luminance(end)),
         Level::White => format!("white, from {}", luminance(band.from)),
@@ -92,6 +104,7 @@ mod tests {
         assert_eq!(told(Level::Stop(0), 0.125, 0.25), "0 mid grey, 176.8 cd/m²");
         assert_eq!(told(Level::Stop(-3), 1.0, 4.0), "−3, 2000 cd/m²");
         assert_eq!(told(Level::Stop(7), 16.0, 25.0), "+7, 20000 cd/m²");
+        assert_eq!(told(Level::Stop(7), 1000.0, 4000.0), "+7, 2000 kcd/m²");
         assert_eq!(told(Level::Black, 0.0, 0.002), "black, below 2 cd/m²");
         assert_eq!(
             told(Level::White, 32.0, f64::INFINITY),

@@ -116,10 +116,10 @@ impl Panels {
                         let automatic_half = document.automatic_half_saturation_cd_m2();
                         let (project, job) = document.parts();
                         fire::show(ui, project, job, commands);
-                        air::show(ui, project, job);
                         view::show(ui, project, automatic_half, commands);
                         quality::show(ui, project);
                         fire::heat_and_smoke(ui, project, job);
+                        air::show(ui, project, job);
                         volume::show(ui, project, job, recognised.as_ref());
                         camera::show(ui, document);
                         file::findings(ui, document);

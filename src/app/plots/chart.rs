@@ -17,6 +17,9 @@ pub(super) const VISIBLE_NM: [f64; 2] = [380.0, 780.0];
 /// red would be pink, and without it green a plateau.
 const PALER: f64 = 0.3;
 
+/// Share of a chart's height, from the bottom, where the number of a value would lie on that of a wavelength.
+const CORNER: f64 = 0.07;
+
 /// A curve against wavelength.
 pub(super) struct Curve<'a> {
     pub(super) name: &'a str,
@@ -34,7 +37,8 @@ pub(super) enum Axis {
     FromZero,
     /// Evenly, over what the curves take up.
     Close,
-    /// Equal steps are equal factors; what is not above 0 is left out.
+    /// Equal steps are equal factors. What is not above 0 is drawn along the bottom, and a curve that is nowhere
+    /// above it is left out.
     Logarithmic,
 }
 
@@ -84,7 +88,12 @@ impl Chart<'_> {
             .auto_bounds([false, true])
             .set_margin_fraction(vec2(0.0, 0.05))
             .x_grid_spacer(|_| wavelength_marks())
-            .y_grid_spacer(move |seen| value_marks(seen.bounds, logarithmic))
+            .y_grid_spacer(move |seen| {
+                let (low, high) = seen.bounds;
+                let mut marks = value_marks(seen.bounds, logarithmic);
+                marks.retain(|mark| mark.value == 0.0 || mark.value - low > CORNER * (high - low));
+                marks
+            })
             .x_axis_formatter(|mark, _| format!("{:.0} nm", mark.value))
             .y_axis_label(words)
             .y_axis_formatter(move |mark, _| short(value_of(mark.value)))
@@ -104,13 +113,15 @@ impl Chart<'_> {
         }
         let strong = ui.visuals().strong_text_color();
         let curves = self.curves;
+        let bottom = bottom_of(&curves);
         let in_colour = self.in_colour;
         let shown = plot.show(ui, |plot| {
             for curve in curves {
                 let colour = curve.colour(strong);
                 let points: Vec<[f64; 2]> = if logarithmic {
-                    let lit = curve.points.iter().filter(|[_, y]| *y > 0.0);
-                    lit.map(|&[nm, y]| [nm, y.log10()]).collect()
+                    let is_lit = curve.points.iter().any(|[_, y]| *y > 0.0);
+                    let points = curve.points.iter().filter(|_| is_lit);
+                    points.map(|&[nm, y]| [nm, y.max(bottom).log10()]).collect()
                 } else {
                     curve.points
                 };
@@ -133,6 +144,18 @@ impl Chart<'_> {
             .response
             .widget_info(|| WidgetInfo::labeled(Role::Image, true, label));
     }
+}
+
+/// Where a logarithmic axis ends for curves of which some are 0 in places: low enough that a line stands out, and
+/// never so low that the rest is a line along the top.
+fn bottom_of(curves: &[Curve<'_>]) -> f64 {
+    let values = curves.iter().flat_map(|curve| &curve.points);
+    let values = values.map(|[_, y]| *y).filter(|y| y.is_finite());
+    let (lit, dark): (Vec<f64>, Vec<f64>) = values.partition(|y| *y > 0.0);
+    let peak = lit.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let lowest = lit.into_iter().fold(peak, f64::min);
+    let most = if dark.is_empty() { peak } else { 1e-3 * peak };
+    lowest.clamp(1e-12 * peak, most).max(f64::MIN_POSITIVE)
 }
 
 /// The curves' names, each behind a piece of its line. Above the chart, where it hides none of them.
@@ -281,6 +304,21 @@ mod tests {
         assert_eq!(told(0.03, 30.0), ["0.1", "1", "10"]);
         assert_eq!(told(4.0, 60.0), ["5", "10", "20", "50"]);
         assert!(told(1e-20, 1e3).len() < 12);
+    }
+
+    #[test]
+    fn a_lone_line_stands_on_the_bottom_of_a_logarithmic_axis() {
+        let curve = |values: &[f64]| Curve {
+            name: "",
+            points: values.iter().map(|&y| [500.0, y]).collect(),
+            style: LineStyle::Solid,
+            faint: false,
+        };
+        let bottom = |values: &[f64]| bottom_of(&[curve(values)]);
+        assert!((bottom(&[0.0, 40.0, 50.0, 0.0]) - 0.05).abs() < 1e-12);
+        assert_eq!(bottom(&[2.0, 40.0]), 2.0);
+        assert_eq!(bottom(&[0.0, 1e-5, 1.0]), 1e-5);
+        assert!(bottom(&[0.0]) > 0.0 && bottom(&[]) > 0.0);
     }
 
     #[test]

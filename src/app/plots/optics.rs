@@ -4,6 +4,7 @@ use egui::{RichText, Slider, Ui};
 use egui_plot::LineStyle;
 
 use super::chart::{Axis, Chart, Curve, VISIBLE_NM};
+use crate::app::panels::short;
 use crate::app::theme::{IDLE, WARNING};
 use crate::project::Job;
 use crate::scene::curves::{Bands, Curves, Row, peak_of};
@@ -121,7 +122,7 @@ impl OpticsPlots {
             Slider::new(&mut place.soot_volume_fraction, SOOT[0]..=SOOT[1])
                 .clamping(egui::SliderClamping::Edits)
                 .logarithmic(true)
-                .custom_formatter(|value, _| format!("{value:.2e}"))
+                .custom_formatter(|value, _| short(value))
                 .text("Soot there"),
         )
         .on_hover_text("Volume of soot in a volume of gas, before the soot amount multiplies it.");

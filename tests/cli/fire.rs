@@ -1,0 +1,97 @@
+//! What burns, on the command line: told in statistics, by `info` and in a picture's provenance.
+
+use serde_json::Value;
+use sootlight::project::Project;
+
+use super::place::{Place, read_png};
+
+/// The statistics of a small picture.
+fn stats(place: &Place, words: &str) -> Value {
+    place.expect(
+        0,
+        &format!("render {words} --size 24x32 -o a.png --stats s.json"),
+    );
+    serde_json::from_str(&place.text("s.json")).unwrap()
+}
+
+/// Effect, state and reason of each row of the plan.
+fn plan(stats: &Value) -> Vec<[String; 3]> {
+    let rows = stats["plan"].as_array().unwrap().iter();
+    rows.map(|row| ["effect", "state", "reason"].map(|key| row[key].as_str().unwrap().to_owned()))
+        .collect()
+}
+
+#[test]
+fn statistics_tell_what_burns_and_which_effects_were_computed() {
+    let place = Place::new();
+    let copper = stats(
+        &place,
+        "--preset copper --set render.interpolation=tricubic",
+    );
+    assert_eq!(copper["fire"]["fuel"], "methanol");
+    assert_eq!(copper["fire"]["salt"], "copper");
+    assert!(copper["fire"]["salt_ppm"].as_f64().unwrap() > 0.0);
+    assert_eq!(copper["fire"]["soot_times_field"], 0.0);
+    assert_eq!(copper["settings"]["interpolation"], "tricubic");
+    let effects = plan(&copper);
+    let states: Vec<&str> = effects.iter().map(|row| row[1].as_str()).collect();
+    assert_eq!(states, ["off", "on", "on"], "{effects:?}");
+    assert_eq!(effects[0][2], "there is no soot");
+
+    let torch = stats(&place, "--set view.curve=eye --set view.adaptation=0.5");
+    assert_eq!(torch["exposure"]["curve"], "eye");
+    assert_eq!(torch["exposure"]["adaptation"], 0.5);
+    assert_eq!(torch["exposure"]["false_colour"], false);
+    let effects = plan(&torch);
+    assert_eq!(effects[0][1], "on");
+    assert_eq!(effects[1][1..], ["off", "there is no salt"]);
+    assert_eq!(effects[2][1], "off");
+    assert!(effects[2][2].starts_with("no field says where gas burns"));
+
+    let off = "--preset copper --set effects.lines=off --set effects.chemiluminescence=off --set soot.amount=1";
+    for row in &plan(&stats(&place, off))[1..] {
+        assert_eq!(
+            row[1..],
+            ["off".to_owned(), format!("effects.{} is off", row[0])]
+        );
+    }
+}
+
+#[test]
+fn the_scene_in_statistics_and_in_a_picture_makes_the_picture_again() {
+    let place = Place::new();
+    let words = "--preset strontium --set fuel.salt_ppm=12.5 --set render.interpolation=nearest --set view.white_k=3000";
+    let first = stats(&place, words);
+    let picture = read_png(&place.path("a.png")).0;
+    let project: Project = serde_json::from_value(first["scene"].clone()).unwrap();
+    assert_eq!(project.fuel.salt_ppm, 12.5);
+    std::fs::write(place.path("again.toml"), project.to_toml()).unwrap();
+    let again = stats(&place, "--scene again.toml");
+    assert_eq!(again["scene"], first["scene"]);
+    assert_eq!(again["exposure"], first["exposure"]);
+    assert!(
+        read_png(&place.path("a.png")).0 == picture,
+        "another picture"
+    );
+}
+
+#[test]
+fn info_says_which_flame_and_what_the_fuel_does_to_its_soot() {
+    let place = Place::new();
+    let [said, _] = place.expect(0, "info --preset copper");
+    for words in [
+        "built-in flame, spirit",
+        "methanol: burns without soot",
+        "0 × the soot field",
+        "salt      copper, ",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let [said, _] = place.expect(0, "info --set fuel.name=acetylene --set soot.amount=2");
+    assert!(
+        said.contains("acetylene: 4 × the soot of propane"),
+        "{said}"
+    );
+    assert!(said.contains("8 × the soot field"), "{said}");
+    assert!(!said.contains("salt"), "{said}");
+}
