@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use sootlight::engine::{Engine, News, Picture};
 use sootlight::project::{Job, Project};
-use sootlight::volume::{self, Limits, Volume};
+use sootlight::volume::{self, BuiltIn, Limits, Volume};
 
 /// How many times the slider moves.
 const MOVES: u32 = 120;
@@ -38,7 +38,7 @@ fn main() {
         SIZE[0], SIZE[1]
     );
     for (name, files) in flame.into_iter().chain(shared) {
-        match volume::open_or_built_in(&files, &Limits::default()) {
+        match volume::open_or_built_in(&files, BuiltIn::default(), &Limits::default()) {
             Ok(volume) => measure(name, &Arc::new(volume)),
             Err(error) => println!("  {name}: {error}"),
         }

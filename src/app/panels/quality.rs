@@ -68,24 +68,7 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
                 render.samples_per_pixel,
             ) = (None, None, None);
         }
-        let options = Interpolation::ALL.map(|way| {
-            let tip = match way {
-                Interpolation::Nearest => "Each voxel a block, as the file has them.",
-                Interpolation::Trilinear => "Straight between voxels.",
-                Interpolation::Tricubic => {
-                    "Smooth, without lines of the lattice; softens detail of one voxel. Takes several times as long."
-                }
-            };
-            (way, capitalised(way.name()), tip)
-        });
-        Choice {
-            label: "Between voxels",
-            options: &options,
-            tip: "How values between the file's voxels are formed.",
-            default: Interpolation::default(),
-            idle: None,
-        }
-        .show(ui, &mut render.interpolation);
+
         let (_, wavelengths_default, rays_default) = render.quality.numbers();
 
         let options = WavelengthSet::ALL.map(|set| {
@@ -125,7 +108,30 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
         if changed {
             render.samples_per_pixel = (rays != rays_default).then_some(rays);
         }
+        between_voxels(ui, &mut render.interpolation);
     });
+}
+
+/// Not a part of the quality's presets: more is not always nearer to what was meant.
+fn between_voxels(ui: &mut Ui, interpolation: &mut Interpolation) {
+    let options = Interpolation::ALL.map(|way| {
+        let tip = match way {
+            Interpolation::Nearest => "Each voxel a block, as the file has them.",
+            Interpolation::Trilinear => "Straight between voxels.",
+            Interpolation::Tricubic => {
+                "Smooth, without lines of the lattice; softens detail of one voxel. Takes several times as long."
+            }
+        };
+        (way, capitalised(way.name()), tip)
+    });
+    Choice {
+        label: "Between voxels",
+        options: &options,
+        tip: "How values between the file's voxels are formed.",
+        default: Interpolation::default(),
+        idle: None,
+    }
+    .show(ui, interpolation);
 }
 
 /// A name with a capital, as a menu has it.
