@@ -30,17 +30,22 @@ pub enum SetError {
         hint: String,
     },
     /// The value is not of the key's kind.
-    #[error("{key} is {found}: expected {expects}{hint}")]
+    #[error("{key} is {found}: expected {expects}{}", hint(*.meant))]
     WrongValue {
         /// The dotted key.
         key: String,
         /// What was written.
         found: String,
         /// What the key takes.
-        expects: String,
-        /// "; did you mean …?" or nothing.
-        hint: String,
+        expects: &'static str,
+        /// Which of its names is most like that, if it takes names.
+        meant: Option<&'static str>,
     },
+}
+
+/// What was probably meant, in words.
+fn hint(meant: Option<&str>) -> String {
+    meant.map_or_else(String::new, |name| format!("; did you mean {name}?"))
 }
 
 impl Project {
@@ -88,12 +93,11 @@ impl Key {
         } else {
             found
         };
-        let meant = did_you_mean(&found, self.names());
         SetError::WrongValue {
             key: self.name.to_owned(),
-            hint: meant.map_or_else(String::new, |name| format!("; did you mean {name}?")),
+            meant: did_you_mean(&found, self.names()),
             found,
-            expects: self.expects.to_owned(),
+            expects: self.expects,
         }
     }
 
@@ -125,8 +129,7 @@ pub(super) fn find(name: &str) -> Result<&'static Key, SetError> {
         .find(|key| key.name == name)
         .ok_or_else(|| SetError::UnknownKey {
             key: name.to_owned(),
-            hint: nearest_key(name)
-                .map_or_else(String::new, |key| format!("; did you mean {key}?")),
+            hint: hint(nearest_key(name)),
         })
 }
 

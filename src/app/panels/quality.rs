@@ -68,7 +68,6 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
                 render.samples_per_pixel,
             ) = (None, None, None);
         }
-        between_voxels(ui, &mut render.interpolation);
         let (_, wavelengths_default, rays_default) = render.quality.numbers();
 
         let options = WavelengthSet::ALL.map(|set| {
@@ -108,10 +107,12 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
         if changed {
             render.samples_per_pixel = (rays != rays_default).then_some(rays);
         }
+        between_voxels(ui, &mut render.interpolation);
     });
 }
 
-/// How values between voxels are formed.
+/// How values between voxels are formed. Not a part of the quality's presets: more is not always nearer to what was
+/// meant.
 fn between_voxels(ui: &mut Ui, interpolation: &mut Interpolation) {
     let options = Interpolation::ALL.map(|way| {
         let tip = match way {
