@@ -107,10 +107,11 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::scene::Interpolation;
     use crate::volume::{Border, FieldMap, FieldMaps, Grid, Volume};
 
     /// A sparse volume of 24³ voxels of 1 m with soot where the hash of the voxel says so, packed.
-    fn sparse(seed: u32) -> Medium {
+    fn sparse(seed: u32, interpolation: Interpolation) -> Medium {
         let soot = move |voxel: IVec3| {
             let block = voxel / 5;
             let hash = (block.x as u32 * 73 + block.y as u32 * 179 + block.z as u32 * 283 + seed)
@@ -130,7 +131,7 @@ mod tests {
             ..FieldMaps::default()
         };
         let volume = Volume::from_grids(vec![grid], "sparse");
-        crate::scene::pack_for_tests(&volume, &maps).unwrap()
+        crate::scene::pack_for_tests(&volume, &maps, interpolation).unwrap()
     }
 
     proptest! {
@@ -138,6 +139,7 @@ mod tests {
         #[test]
         fn every_step_with_soot_is_in_a_run(
             seed in 0_u32..500,
+            interpolation in prop::sample::select(Interpolation::ALL.to_vec()),
             origin in prop::array::uniform3(-40.0..60.0_f64),
             direction in prop_oneof![
                 prop::array::uniform3(-1.0..1.0_f64),
@@ -148,7 +150,7 @@ mod tests {
             whole in any::<bool>(),
             step_m in 0.2..9.0_f64,
         ) {
-            let medium = sparse(seed);
+            let medium = sparse(seed, interpolation);
             let origin = DVec3::from(origin);
             // Half of the rays run exactly along planes of the lattice.
             let origin = if whole { origin.round() } else { origin };

@@ -42,19 +42,24 @@ pub struct Scene {
     pub camera: Camera,
 }
 
-/// Packs a volume whose fields are physical and in metres, for tests of the floors above.
+/// Packs a volume whose fields are physical and in metres, for tests of the floors above. Where there is a flame field,
+/// burning and hot gas are taken to glow.
 #[cfg(test)]
 pub(crate) fn pack_for_tests(
     volume: &crate::volume::Volume,
     maps: &crate::volume::FieldMaps,
+    interpolation: Interpolation,
 ) -> Result<Medium, PackingError> {
     let fields = packing::Fields {
         volume,
         maps,
         amounts: [1.0, 1.0],
         ambient_k: 300.0,
-        gas: packing::GasFields::default(),
-        interpolation: Interpolation::default(),
+        gas: packing::GasFields {
+            burning: maps.flame.as_ref().map(|_| packing::Burning::Field),
+            hot: maps.flame.is_some(),
+        },
+        interpolation,
     };
     fields.pack(&glam::DAffine3::IDENTITY, &crate::volume::Limits::default())
 }
