@@ -7,8 +7,10 @@ use glam::DVec3;
 use super::job::Job;
 use super::settings::{CameraSettings, FieldSettings, Project};
 use crate::math::Aabb;
+use crate::scene::Fuel;
 use crate::scene::flame;
-use crate::volume::{FieldKind, GLOW_K, PEAK_K, figures};
+use crate::scene::glow::VAPOUR_K;
+use crate::volume::{self, FieldKind, GLOW_K, PEAK_K, figures};
 
 /// Why nothing is seen.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +28,8 @@ pub enum Mend {
     SootAmount,
     /// Take the smoke as the file has it.
     SmokeAmount,
+    /// Burn the default fuel, which makes soot.
+    Fuel,
     /// Take the field as the producer's preset does.
     Field(FieldKind),
     /// Heat: these factors from the file's numbers to kelvin.
@@ -45,9 +49,17 @@ const AMBIENT_K: f64 = 300.0;
 impl Darkness {
     /// Why a black picture of this job is black.
     pub fn of(job: &Job) -> Self {
-        no_soot(job)
+        let no_soot = no_soot(job);
+        // Gas that shines by itself needs no soot: then want of it is the last of the reasons.
+        let (first, last) = if job.flame.shining_gas().is_empty() {
+            (no_soot, None)
+        } else {
+            (None, no_soot)
+        };
+        first
             .or_else(|| too_cold(job))
             .or_else(|| out_of_sight(job))
+            .or(last)
             .unwrap_or_else(|| Self {
                 words: format!(
                     "the picture is black: where the fire is above {GLOW_K} K there is too little soot to glow"
@@ -65,10 +77,18 @@ fn no_soot(job: &Job) -> Option<Darkness> {
     if (0..2).any(|i| amounts[i] * densest(kinds[i]) > 0.0) {
         return None;
     }
+    let fuel = flame.fuel.row();
     Some(if densest(FieldKind::Soot) > 0.0 {
-        Darkness {
-            words: "the picture is black: the amount of soot is 0".to_owned(),
-            mend: Some(Mend::SootAmount),
+        if job.soot_follows_fuel && fuel.soot_yield <= 0.0 {
+            Darkness {
+                words: format!("the picture is black: {} makes no soot", fuel.name),
+                mend: Some(Mend::Fuel),
+            }
+        } else {
+            Darkness {
+                words: "the picture is black: the amount of soot is 0".to_owned(),
+                mend: Some(Mend::SootAmount),
+            }
         }
     } else if densest(FieldKind::Smoke) > 0.0 {
         Darkness {
@@ -87,18 +107,26 @@ fn no_soot(job: &Job) -> Option<Darkness> {
 /// Back to the preset's mapping of a field, if it is another one.
 fn as_proposed(job: &Job, kind: FieldKind) -> Option<Mend> {
     let changed = job.flame.maps.get(kind) != job.proposed.get(kind);
+    let preset = volume::preset(job.producer, &job.volume);
     let off = job.flame.maps.get(kind).is_none();
-    (changed || off).then_some(Mend::Field(kind))
+    let has_it = preset.maps.get(kind).is_some();
+    ((changed || off) && has_it).then_some(Mend::Field(kind))
 }
 
 fn too_cold(job: &Job) -> Option<Darkness> {
+    let least_k = match (job.flame.has_soot(), job.flame.gas_shines_by_heat()) {
+        (true, _) => GLOW_K,
+        (false, true) => VAPOUR_K[0],
+        // Heat would show nothing.
+        (false, false) => return None,
+    };
     let Some((_, hottest)) = physical_range(job, FieldKind::Temperature) else {
-        return (job.flame.air.temperature_k < GLOW_K).then(|| Darkness {
+        return (job.flame.air.temperature_k < least_k).then(|| Darkness {
             words: "the picture is black: there is no temperature field, so all gas is as cold as the air".to_owned(),
-            mend: Some(Mend::Field(FieldKind::Temperature)),
+            mend: as_proposed(job, FieldKind::Temperature),
         });
     };
-    if hottest >= GLOW_K {
+    if hottest >= least_k {
         return None;
     }
     let map = job.flame.maps.temperature.as_ref()?;
@@ -111,7 +139,7 @@ fn too_cold(job: &Job) -> Option<Darkness> {
     };
     Some(Darkness {
         words: format!(
-            "the picture is black: no voxel is above {GLOW_K} K, the hottest has {} K. Is the temperature's scale right?",
+            "the picture is black: no voxel is above {least_k} K, the hottest has {} K. Is the temperature's scale right?",
             figures(hottest.round())
         ),
         mend: scale.is_finite().then_some(heat),
@@ -160,6 +188,7 @@ impl Mend {
         match self {
             Self::SootAmount => "Set the soot amount to 1".to_owned(),
             Self::SmokeAmount => "Set the smoke amount to 1".to_owned(),
+            Self::Fuel => format!("Burn {}", Fuel::default().name()),
             Self::Field(kind) => format!("Read the {} as the preset does", kind.name()),
             Self::Heat { .. } => format!("Make the hottest voxel {PEAK_K} K"),
             Self::Camera => "Look at the fire".to_owned(),
@@ -171,6 +200,12 @@ impl Mend {
         match *self {
             Self::SootAmount => project.soot.amount = 1.0,
             Self::SmokeAmount => project.smoke.amount = 1.0,
+            Self::Fuel => {
+                project.fuel.name = Fuel::default();
+                if project.soot.amount <= 0.0 {
+                    project.soot.amount = 1.0;
+                }
+            }
             Self::Field(kind) => *project.volume.field_mut(kind) = FieldSettings::default(),
             Self::Heat { scale, offset } => {
                 let grid = project.volume.temperature.grid.take();
@@ -224,6 +259,30 @@ mod tests {
                 "looks elsewhere",
             ),
             (&["soot.amount=1e-30"], "too little soot"),
+            (&["fuel.name=methanol"], "makes no soot"),
+            // With a salt a flame without soot is no reason to be black.
+            (
+                &[
+                    "soot.amount=0",
+                    "fuel.salt=sodium",
+                    "camera.eye=[0, -3, 0]",
+                    "camera.target=[0, -4, 0]",
+                ],
+                "looks elsewhere",
+            ),
+            (
+                &[
+                    "fuel.name=methanol",
+                    "fuel.salt=sodium",
+                    "volume.temperature.scale=0.4",
+                    "volume.temperature.min=0",
+                ],
+                "no voxel is above 900 K",
+            ),
+            (
+                &["soot.amount=0", "fuel.salt=copper", "fuel.salt_ppm=1e-30"],
+                "amount of soot is 0",
+            ),
             (
                 &[
                     "volume.soot.grid=",

@@ -39,7 +39,13 @@ pub enum Control {
 /// Why a control cannot change this job's picture; `None` if it can.
 pub fn why_idle(job: &Job, control: Control) -> Option<String> {
     let flame = &job.flame;
-    let no_soot = flame.soot_amount <= 0.0 && flame.smoke_amount <= 0.0;
+    let no_soot = !flame.has_soot();
+    // Soot for each unit of the amount that a person sets.
+    let soot_yield = if job.soot_follows_fuel {
+        flame.fuel.row().soot_yield
+    } else {
+        1.0
+    };
     let words = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
             "the file says how much soot there is, and this soot model has one soot for all fuels: choose another below"
@@ -58,6 +64,7 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
             "with its volume kept, soot of any radius absorbs and glows alike; scattering, which would tell, is not \
              computed"
         }
+        Control::SootAmount if soot_yield <= 0.0 => "this fuel makes no soot",
         Control::SootAmount => "this volume has no soot field",
         Control::SmokeAmount => "this volume has no smoke field: choose a grid for it under Volume",
         Control::SaltAmount => "there is no salt",
@@ -86,16 +93,17 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
             let both = [Hold::Number, Hold::Volume];
             no_soot || both.into_iter().all(|hold| same(&|f| f.soot_hold = hold))
         }
-        Control::Heat => no_soot,
+        Control::Heat => no_soot && !flame.gas_shines_by_heat(),
         Control::FlameField => same(&|f| f.maps.flame = None),
         Control::Fuel => {
             // Grey soot is no fuel's; that it would differ says nothing of the others.
             let mut sooty = Fuel::all().filter(|fuel| fuel.row().soot.is_some());
-            let follows = job.soot_follows_fuel && !no_soot;
+            // A fuel that makes no soot can be left for one that does.
+            let follows = job.soot_follows_fuel && (!no_soot || soot_yield <= 0.0);
             !follows && sooty.all(|fuel| same(&|f| f.fuel = fuel))
         }
         Control::SootRadius => no_soot || same(&|f| f.soot_radius_nm *= 1.5),
-        Control::SootAmount => same(&|f| f.soot_amount += 1.0),
+        Control::SootAmount => same(&|f| f.soot_amount += soot_yield),
         Control::SmokeAmount => same(&|f| f.smoke_amount += 1.0),
         Control::SaltAmount => same(&|f| f.glow.salt_ppm += 1.0),
         Control::BlueGlow => same(&|f| f.glow.radicals += 1.0),
@@ -150,6 +158,26 @@ mod tests {
         );
         let grey = ["fuel.name=black-body", "volume.flame.grid=soot"];
         assert!(idle(&grey, Control::BlueGlow).unwrap().contains("fuel"));
+    }
+
+    #[test]
+    fn a_fuel_without_soot_says_so_and_can_be_left_again() {
+        let spirit = ["fuel.name=methanol"];
+        assert_eq!(idle(&spirit, Control::Fuel), None);
+        let words = idle(&spirit, Control::SootAmount).unwrap();
+        assert!(words.contains("makes no soot"), "{words}");
+        let given = ["fuel.name=methanol", "volume.soot.scale=1"];
+        assert_eq!(idle(&given, Control::SootAmount), None);
+    }
+
+    #[test]
+    fn heat_acts_where_gas_glows_without_soot() {
+        let salted = ["fuel.name=methanol", "fuel.salt=sodium"];
+        assert_eq!(idle(&salted, Control::Heat), None);
+        let by_heat = ["soot.amount=0", "effects.chemiluminescence=on"];
+        assert_eq!(idle(&by_heat, Control::Heat), None);
+        let blue = ["soot.amount=0", "volume.flame.grid=soot"];
+        assert!(idle(&blue, Control::Heat).is_some());
     }
 
     #[test]
