@@ -113,14 +113,14 @@ pub fn number_density(mole_fraction: f64, pressure_pa: f64, temperature_k: f64) 
 }
 
 impl Line {
-    /// S/N in m²: the line's area in the absorption coefficient for each atom in a cubic metre. At 0 K that of the
+    /// S/N in m³: the line's area in the absorption coefficient for each atom in a cubic metre. At 0 K that of the
     /// ground level (0 for a line from an excited one). Precondition: `temperature_k` ≥ 0.
     pub fn area_per_atom(&self, temperature_k: f64) -> f64 {
         let x = SECOND_RADIATION_CONSTANT_NM_K / (self.lambda_nm * temperature_k);
         self.cold_area_per_atom() * self.lower_share(temperature_k) * -(-x).exp_m1()
     }
 
-    /// S/N in m² if all atoms were in the lower level's Boltzmann share 1, without stimulated emission: what does not
+    /// S/N in m³ if all atoms were in the lower level's Boltzmann share 1, without stimulated emission: what does not
     /// depend on temperature.
     pub fn cold_area_per_atom(&self) -> f64 {
         let lambda_m = self.lambda_nm * METRES_PER_NM;

@@ -48,9 +48,8 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
             "the file says how much soot there is, and this soot model has one soot for all fuels: choose another below"
         }
-        Control::SootModel | Control::Hold | Control::Heat | Control::SootRadius if no_soot => {
-            "there is no soot"
-        }
+        Control::Heat if no_soot => "there is no soot, and no gas that glows by its heat",
+        Control::SootModel | Control::Hold | Control::SootRadius if no_soot => "there is no soot",
         Control::SootModel => "the soot models agree here",
         Control::Hold => "at 21.25 nm, where the file's soot holds, both are the same",
         Control::Heat => "the temperature does not matter here",
@@ -91,7 +90,7 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
             let both = [Hold::Number, Hold::Volume];
             no_soot || both.into_iter().all(|hold| same(&|f| f.soot_hold = hold))
         }
-        Control::Heat => no_soot,
+        Control::Heat => no_soot && !flame.gas_shines_by_heat(),
         Control::FlameField => same(&|f| f.maps.flame = None),
         Control::Fuel => {
             // Grey soot is no fuel's; that it would differ says nothing of the others.
@@ -170,6 +169,16 @@ mod tests {
         // Where the amount was said by hand, the fuel does not say it.
         let given = [clean, "volume.soot.scale=1"];
         assert_eq!(idle(&given, Control::SootAmount), None);
+    }
+
+    #[test]
+    fn heat_acts_where_gas_glows_without_soot() {
+        let salted = ["fuel.name=methanol", "fuel.salt=sodium"];
+        assert_eq!(idle(&salted, Control::Heat), None);
+        let by_heat = ["soot.amount=0", "effects.chemiluminescence=on"];
+        assert_eq!(idle(&by_heat, Control::Heat), None);
+        let blue = ["soot.amount=0", "volume.flame.grid=soot"];
+        assert!(idle(&blue, Control::Heat).is_some());
     }
 
     #[test]

@@ -94,7 +94,7 @@ impl Project {
             up,
             metres_per_unit,
         };
-        let settings = self.settings(self.render.size)?;
+        let mut settings = self.settings(self.render.size)?;
         let camera = self.camera(volume, &maps, &placement, settings.size);
         camera.view(settings.size)?;
         let glow = self.glow(&maps, &mut flaws);
@@ -122,6 +122,10 @@ impl Project {
             },
         };
         flame.check(volume)?;
+        if !flame.shining_gas().has_radicals() {
+            // Whether what is not there is shown makes no other picture.
+            settings.effects = Effects::default();
+        }
         Ok(Job {
             volume: Arc::clone(volume),
             flame,
@@ -303,4 +307,64 @@ fn file_voxel_size(volume: &Volume, maps: &FieldMaps) -> f64 {
         .map_or(1.0, |grid| {
             grid.world_from_index().matrix3.determinant().abs().cbrt()
         })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+    use crate::volume::procedural;
+
+    /// Whether a change of settings asks for another picture of the torch.
+    fn asks_anew(before: &[&str], change: &str) -> bool {
+        let volume = Arc::new(procedural::torch());
+        let job = |assignments: &[&str]| {
+            let mut project = Project::default();
+            project.set_all(assignments.iter().copied()).unwrap();
+            project.job(&volume).unwrap()
+        };
+        job(before) != job(&[before, &[change]].concat())
+    }
+
+    #[test]
+    fn only_what_changes_the_light_asks_for_a_picture() {
+        let field = "volume.flame.grid=soot";
+        for (before, change) in [
+            (&["fuel.salt=sodium"][..], "fuel.salt_ppm=20"),
+            (&["fuel.salt=sodium"], "fuel.salt=copper"),
+            (&["fuel.salt=sodium"], "fuel.name=acetylene"),
+            (&["fuel.salt=sodium"], "air.temperature_k=350"),
+            (&["fuel.salt=sodium"], "effects.lines=off"),
+            (&[field], "fuel.blue_glow=2"),
+            (&[field], "fuel.name=acetylene"),
+            (&[field], "effects.chemiluminescence=off"),
+            (&[], "effects.chemiluminescence=on"),
+            (&["volume.temperature.grid="], "air.temperature_k=350"),
+            (&[], "render.interpolation=tricubic"),
+        ] {
+            assert!(asks_anew(before, change), "{before:?} then {change}");
+        }
+        for (before, change) in [
+            (&[][..], "fuel.salt_ppm=20"),
+            (
+                &["fuel.salt=sodium", "effects.lines=off"],
+                "fuel.salt=copper",
+            ),
+            (&["fuel.salt_ppm=0"], "fuel.salt=copper"),
+            // Nothing says what burns.
+            (&[], "fuel.blue_glow=2"),
+            (&[], "effects.chemiluminescence=off"),
+            (&[field, "fuel.blue_glow=0"], "effects.chemiluminescence=on"),
+            (
+                &["fuel.name=black-body", field],
+                "effects.chemiluminescence=off",
+            ),
+            (&["fuel.blue_glow=0"], field),
+            // The file says how hot the gas is.
+            (&[], "air.temperature_k=350"),
+            (&[], "air.humidity=0.9"),
+        ] {
+            assert!(!asks_anew(before, change), "{before:?} then {change}");
+        }
+    }
 }

@@ -68,11 +68,10 @@ pub(super) fn for_each_stretch(
 #[cfg(test)]
 pub(super) mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use glam::{DAffine3, DVec3, IVec3};
-    use proptest::prelude::*;
+    use glam::{DAffine3, IVec3};
 
-    use super::*;
     use crate::scene::Interpolation;
+    use crate::scene::Medium;
     use crate::volume::{Border, FieldMap, FieldMaps, Grid, Volume};
 
     /// 24³ voxels of 1 m, a few blocks of which hold soot.
@@ -97,44 +96,5 @@ pub(super) mod tests {
         };
         let volume = Volume::from_grids(vec![grid], "sparse");
         crate::scene::pack_for_tests(&volume, &maps, interpolation).unwrap()
-    }
-
-    proptest! {
-        /// Stretches come in order, apart, and hold every point with soot: along axes, planes and any ray.
-        #[test]
-        fn every_point_with_soot_is_in_a_stretch(
-            seed in 0_u32..500,
-            origin in prop::array::uniform3(-40.0..60.0_f64),
-            direction in prop_oneof![
-                prop::array::uniform3(-1.0..1.0_f64),
-                prop::sample::select(vec![
-                    [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0], [-1.0, 1.0, -1.0],
-                ]),
-            ],
-            whole in any::<bool>(),
-            interpolation in prop::sample::select(Interpolation::ALL.to_vec()),
-        ) {
-            let medium = sparse(seed, interpolation);
-            let origin = DVec3::from(origin);
-            let origin = if whole { origin.round() } else { origin };
-            let Some(ray) = Ray::new(origin, direction.into()) else { return Ok(()) };
-            let Some((local, range)) = medium.enter(&ray) else { return Ok(()) };
-            let mut found = Vec::new();
-            for_each_stretch(&medium, &local, range, |stretch| {
-                if stretch.to > stretch.from {
-                    found.push(stretch);
-                }
-            });
-            prop_assert!(found.iter().all(|s| s.from < s.to && s.from >= range[0] && s.to <= range[1]));
-            prop_assert!(found.windows(2).all(|pair| pair[0].to <= pair[1].from), "{found:?}");
-            for i in 0..500 {
-                let t = range[0] + (range[1] - range[0]) * (f64::from(i) + 0.5) / 500.0;
-                // Within rounding of a border a point may belong to either side.
-                if medium.sample(local.at(t))[0] > 1e-18 {
-                    let held = found.iter().any(|s| s.from - 1e-9 <= t && t <= s.to + 1e-9);
-                    prop_assert!(held, "t = {t} is in no stretch: {found:?}");
-                }
-            }
-        }
     }
 }

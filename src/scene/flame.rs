@@ -69,9 +69,8 @@ impl FlameParams {
         self.effect() == other.effect()
     }
 
-    /// What the parameters come to.
-    fn effect(&self) -> Effect {
-        let (amounts, common) = self.packed_amounts();
+    /// What glows in the gas beside soot: radicals only where something says what burns.
+    pub fn shining_gas(&self) -> Glow {
         let says_what_burns = self.maps.flame.is_some() || self.glow.by_heat;
         let glow = GlowParams {
             radicals: if says_what_burns {
@@ -81,7 +80,24 @@ impl FlameParams {
             },
             ..self.glow
         };
-        let glow = Glow::new(&glow, self.fuel, &self.air);
+        Glow::new(&glow, self.fuel, &self.air)
+    }
+
+    /// Whether the light of the gas depends on how hot it is.
+    pub fn gas_shines_by_heat(&self) -> bool {
+        let gas = self.gas_fields(&self.shining_gas());
+        gas.hot || gas.burning == Some(Burning::Temperature)
+    }
+
+    /// Whether any field of soot or smoke counts.
+    pub fn has_soot(&self) -> bool {
+        self.packed_amounts().0.iter().any(|amount| *amount > 0.0) && self.packed_amounts().1 > 0.0
+    }
+
+    /// What the parameters come to.
+    fn effect(&self) -> Effect {
+        let (amounts, common) = self.packed_amounts();
+        let glow = self.shining_gas();
         let gas = self.gas_fields(&glow);
         Effect {
             key: PackingKey {
@@ -92,7 +108,11 @@ impl FlameParams {
                 },
                 placement: self.placement,
                 amounts,
-                ambient_k: self.air.temperature_k,
+                // Where a field says how hot all gas is, the air's own heat is not packed.
+                ambient_k: match self.maps.temperature {
+                    Some(_) => Air::default().temperature_k,
+                    None => self.air.temperature_k,
+                },
                 gas,
                 interpolation: self.interpolation,
             },

@@ -176,12 +176,12 @@ impl Glow {
                 }
                 Emitter::Band {
                     band,
-                    area_m2,
+                    area_m3,
                     mole_fraction,
                 } => {
                     let x =
                         blackbody::SECOND_RADIATION_CONSTANT_NM_K / (band.at_nm * temperature_k);
-                    let area = molecules * mole_fraction * area_m2 * -(-x).exp_m1();
+                    let area = molecules * mole_fraction * area_m3 * -(-x).exp_m1();
                     thermal(area * band.share_in(bin_nm), band.at_nm);
                 }
                 Emitter::Radical { band, emission } => {

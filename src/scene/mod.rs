@@ -42,7 +42,8 @@ pub struct Scene {
     pub camera: Camera,
 }
 
-/// Packs a volume whose fields are physical and in metres, for tests of the floors above.
+/// Packs a volume whose fields are physical and in metres, for tests of the floors above. Where there is a flame field,
+/// burning and hot gas are taken to glow.
 #[cfg(test)]
 pub(crate) fn pack_for_tests(
     volume: &crate::volume::Volume,
@@ -54,7 +55,10 @@ pub(crate) fn pack_for_tests(
         maps,
         amounts: [1.0, 1.0],
         ambient_k: 300.0,
-        gas: packing::GasFields::default(),
+        gas: packing::GasFields {
+            burning: maps.flame.as_ref().map(|_| packing::Burning::Field),
+            hot: maps.flame.is_some(),
+        },
         interpolation,
     };
     fields.pack(&glam::DAffine3::IDENTITY, &crate::volume::Limits::default())

@@ -7,9 +7,9 @@ use sootlight::colour::cie;
 use sootlight::physics::growth::curve_of_growth;
 use sootlight::physics::lines::{self, ATMOSPHERE_PA, Line};
 use sootlight::physics::{blackbody, soot};
-use sootlight::project::Project;
+use sootlight::project::{Preset, Project};
 use sootlight::render::march::Marcher;
-use sootlight::render::{Plan, Switch};
+use sootlight::render::{Plan, Probe, Switch};
 use sootlight::scene::{Camera, Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
 use sootlight::volume::{FieldKind, Volume};
@@ -249,6 +249,98 @@ fn every_set_of_wavelengths_holds_the_same_area_as_bins_of_five_nanometres() {
             let same = xyz(&scene_with, none(), 1.0);
             near(added, same, 2e-3, &format!("{salt}, {set:?} against none"));
         }
+    }
+}
+
+#[test]
+fn no_extreme_of_salt_heat_soot_or_step_gives_what_is_no_light() {
+    for kelvin in [1.0, 300.0, 901.0, 1500.0, 2300.0, 6000.0, 1e4] {
+        for (ppm, volume_fraction) in [(1e-9, 1e-3), (10.0, 0.0), (1e5, 1e-12), (1e5, 1e-3)] {
+            for salt in ["sodium", "copper", "barium-chloride"] {
+                let name = format!("fuel.salt={salt}");
+                let amount = format!("fuel.salt_ppm={ppm}");
+                let asked = [
+                    name.as_str(),
+                    amount.as_str(),
+                    "effects.chemiluminescence=on",
+                    "fuel.blue_glow=10000",
+                    "volume.temperature.max=10000",
+                    "volume.soot.max=0.001",
+                ];
+                let scene = scene(|_| volume_fraction, |_| kelvin, 40, &asked);
+                let set = WavelengthSet::Fitted(6).wavelengths(scene.flame.soot());
+                let what = format!("{salt}, {ppm} ppm, {kelvin} K, soot {volume_fraction}");
+                let thin = xyz(&scene, none(), 64.0);
+                for step in [0.01, 0.3, 64.0] {
+                    let all = xyz(&scene, set.clone(), step);
+                    assert!(
+                        all.iter().all(|v| v.is_finite()),
+                        "{what}, step {step}: {all:?}"
+                    );
+                    assert!(all[1] >= 0.0, "{what}, step {step}: {all:?}");
+                    // Everything is alike along the path, so that steps change nothing; but behind soot that is opaque
+                    // lies the noise of what it hides.
+                    let gas = xyz(&scene, none(), step);
+                    assert!(gas.iter().all(|v| v.is_finite()), "{what}: {gas:?}");
+                    if volume_fraction < 1e-6 {
+                        near(gas, thin, 1e-3, &format!("{what}, step {step}"));
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_spectrum_under_the_pointer_and_of_a_place_is_the_films() {
+    for preset in ["gas-burner", "copper", "sodium", "strontium", "torch"] {
+        let preset = Preset::named(preset).unwrap();
+        let mut project = preset.project();
+        project.render.size = [24, 32];
+        let volume = project.volume.built_in.volume();
+        let scene = project.job(&Arc::new(volume)).unwrap().scene(None);
+        let mut lit = 0;
+        for place in [
+            [12.5, 28.5],
+            [12.5, 24.5],
+            [12.5, 16.5],
+            [10.5, 20.5],
+            [13.5, 8.5],
+        ] {
+            let probe = Probe::new(&scene, [24, 32], place).unwrap();
+            let settings = project.settings([24, 32]).unwrap();
+            let plan = Plan::new(&scene, &settings);
+            let marcher = Marcher::new(&scene, &plan, 0.5).unwrap();
+            let mut points = [None; 16];
+            points[0] = Some(place);
+            let film = marcher.march(&points).0[0].xyz.map(f64::from);
+            if film[1] <= 0.0 {
+                continue;
+            }
+            lit += 1;
+            // What is left out as outshone, and the quality's own wavelengths.
+            near(
+                probe.xyz,
+                film,
+                5e-3,
+                &format!("{} at {place:?}", preset.name),
+            );
+            // Its bands hold all the light but what the observer hardly sees.
+            let summed = probe.spectrum.iter().fold([0.0; 3], |sum, [nm, radiance]| {
+                let bars = (0..25).map(|i| cie::colour_matching(nm - 3.0 + 0.25 * f64::from(i)));
+                let bar = bars.fold([0.0; 3], |a: [f64; 3], b| {
+                    std::array::from_fn(|c| a[c] + b[c] / 25.0)
+                });
+                std::array::from_fn(|c| sum[c] + 6.25 * radiance * bar[c])
+            });
+            near(
+                summed,
+                probe.xyz,
+                4e-2,
+                &format!("{} in bands at {place:?}", preset.name),
+            );
+        }
+        assert!(lit >= 2, "{}: {lit}", preset.name);
     }
 }
 

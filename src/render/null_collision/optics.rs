@@ -101,6 +101,21 @@ impl Optics {
         }
     }
 
+    /// Soot that absorbs 1/m at the one wavelength there is.
+    #[cfg(test)]
+    pub(super) fn of_grey_soot() -> Self {
+        Self {
+            nodes: vec![Node {
+                lambda_nm: 555.0,
+                radicals: None,
+                absorption: 1.0,
+                scattering: 0.0,
+            }],
+            colours: Vec::new(),
+            brightest: 0,
+        }
+    }
+
     /// The one place that says what a point of the medium does to light of a wavelength, given by its index.
     ///
     /// Whatever is added here must also show in [`Optics::extinction`] and [`Optics::glow`].

@@ -24,10 +24,10 @@ const BANDS_K: f64 = 2000.0;
 pub(super) enum Emitter {
     /// Free atoms: mole fraction in the undiluted gas.
     Line { line: Line, mole_fraction: f64 },
-    /// A molecule's band: its area in the absorption coefficient for a molecule, m², and the mole fraction.
+    /// A molecule's band: its area in the absorption coefficient for each molecule in a cubic metre, m³, and the mole fraction.
     Band {
         band: Band,
-        area_m2: f64,
+        area_m3: f64,
         mole_fraction: f64,
     },
     /// A radical's band: W m⁻³ sr⁻¹ where the flame field is 1.
@@ -59,7 +59,7 @@ pub(super) fn metal(emitters: &mut Vec<Emitter>, salt: Salt, mole_fraction: f64)
             let oscillator = molecule.oscillator * absorbed(band) / all;
             Emitter::Band {
                 band: *band,
-                area_m2: PI * ELECTRON_RADIUS_M * lambda_m * lambda_m * oscillator,
+                area_m3: PI * ELECTRON_RADIUS_M * lambda_m * lambda_m * oscillator,
                 mole_fraction: mole_fraction * molecule.share,
             }
         }));

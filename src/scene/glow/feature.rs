@@ -160,13 +160,13 @@ fn thermal(emitter: &Emitter) -> Option<Feature> {
         }
         Emitter::Band {
             band,
-            area_m2,
+            area_m3,
             mole_fraction,
         } => {
             let width_nm = band.box_width_nm();
             let source = Source::Thermal {
                 width_nm,
-                strength: mole_fraction * molecules_k * area_m2 / (width_nm * METRES_PER_NM),
+                strength: mole_fraction * molecules_k * area_m3 / (width_nm * METRES_PER_NM),
                 lower_k: 0.0,
                 growth: Growth::Box,
             };
