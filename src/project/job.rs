@@ -97,7 +97,7 @@ impl Project {
         let mut settings = self.settings(self.render.size)?;
         let camera = self.camera(volume, &maps, &placement, settings.size);
         camera.view(settings.size)?;
-        let glow = self.glow(&maps, &mut flaws);
+        let glow = self.glow(volume, &maps, &mut flaws);
         let soot_follows_fuel = self.soot_follows_fuel(volume, &preset);
         let soot_yield = if soot_follows_fuel {
             self.fuel.name.row().soot_yield
@@ -140,7 +140,7 @@ impl Project {
     }
 
     /// What is to glow in the gas beside soot.
-    fn glow(&self, maps: &FieldMaps, flaws: &mut Flaws) -> GlowParams {
+    fn glow(&self, volume: &Volume, maps: &FieldMaps, flaws: &mut Flaws) -> GlowParams {
         // Where nothing says what burns, nothing is made up unless it is asked for.
         let by_heat = self.effects.chemiluminescence == Switch::On;
         let radicals = match self.effects.chemiluminescence {
@@ -157,6 +157,10 @@ impl Project {
             Switch::Auto | Switch::On if self.fuel.salt.is_none() => 0.0,
             Switch::Auto | Switch::On => self.fuel.salt_ppm,
         };
+        let clear_k = maps.temperature.as_ref().and_then(|map| {
+            let grid = volume.grid(&map.grid)?;
+            Some(map.apply(f64::from(grid.background())))
+        });
         GlowParams {
             salt: if salt_ppm > 0.0 {
                 self.fuel.salt
@@ -166,6 +170,7 @@ impl Project {
             salt_ppm,
             radicals,
             by_heat,
+            clear_k: clear_k.unwrap_or(0.0),
         }
     }
 

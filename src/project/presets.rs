@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use super::Project;
-use super::settings::VolumeSettings;
+use super::settings::{FuelSettings, VolumeSettings};
 
 /// A flame by its scene file.
 #[derive(Debug, PartialEq, Eq)]
@@ -86,7 +86,16 @@ impl Preset {
             }
             project.view = scene.view;
         }
-        project.fuel = scene.fuel;
+        // How thin a volume's sheets of flame are is its own, and so is how much of the blue glow it wants.
+        let blue_glow = if project.volume.path.is_empty() {
+            scene.fuel.blue_glow
+        } else {
+            project.fuel.blue_glow
+        };
+        project.fuel = FuelSettings {
+            blue_glow,
+            ..scene.fuel
+        };
         project.soot = scene.soot;
         project.smoke = scene.smoke;
         project.effects = scene.effects;
@@ -127,7 +136,10 @@ mod tests {
         let before = project.clone();
         copper.apply(&mut project);
         assert_eq!(project.volume, before.volume);
-        assert_eq!((project.view, project.camera), (before.view, before.camera));
+        assert_eq!(project.view, before.view);
+        assert_eq!(project.camera, before.camera);
+        Preset::named("copper").unwrap().apply(&mut project);
         assert_ne!(project.fuel, before.fuel);
+        assert_eq!(project.fuel.blue_glow, before.fuel.blue_glow);
     }
 }

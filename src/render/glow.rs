@@ -77,7 +77,7 @@ impl GlowTable {
             radicals: Vec::new(),
             colours: Vec::new(),
             spreads: Vec::new(),
-            dilution: [air as f32, (1.0 / (hot - air)) as f32],
+            dilution: [air as f32, (1.0 / (hot - air).max(1.0)) as f32],
             growth: *FIT,
         };
         // The thermal features come first.

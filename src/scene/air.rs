@@ -58,5 +58,6 @@ impl Air {
 /// Share 0 to 1 of hot products in gas of a temperature, given those of the air and of the undiluted products, K: heat
 /// and products mix alike (conserved scalars: S. P. Burke and T. E. W. Schumann, Ind. Eng. Chem. 20 (1928) 998).
 pub(super) fn products_share([air_k, products_k]: [f64; 2], temperature_k: f64) -> f64 {
-    ((temperature_k - air_k) / (products_k - air_k)).clamp(0.0, 1.0)
+    // Air as hot as the products is no air: what is hotter still is products alone.
+    ((temperature_k - air_k) / (products_k - air_k).max(1.0)).clamp(0.0, 1.0)
 }

@@ -86,7 +86,7 @@ impl FlameParams {
     /// Whether the light of the gas depends on how hot it is.
     pub fn gas_shines_by_heat(&self) -> bool {
         let gas = self.gas_fields(&self.shining_gas());
-        gas.hot || gas.burning == Some(Burning::Temperature)
+        gas.hot_above_k.is_some() || gas.burning == Some(Burning::Temperature)
     }
 
     /// Whether any field of soot or smoke counts.
@@ -132,7 +132,7 @@ impl FlameParams {
         };
         GasFields {
             burning: glow.has_radicals().then_some(burning),
-            hot: glow.has_metal(),
+            hot_above_k: glow.has_metal().then(|| glow.vapour_above_k()),
         }
     }
 

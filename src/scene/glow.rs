@@ -52,6 +52,9 @@ pub struct GlowParams {
     pub radicals: f64,
     /// Whether gas counts as burning by its heat where there is no flame field.
     pub by_heat: bool,
+    /// Temperature of gas of which the volume says nothing, K: gas as cool as that holds no salt, even where the file's
+    /// mapping makes it hotter than the air.
+    pub clear_k: f64,
 }
 
 /// What glows in one flame's gas.
@@ -83,7 +86,7 @@ impl Glow {
         }
         let glow = Self {
             emitters,
-            dilution_k: [air.temperature_k, fuel.row().flame_k],
+            dilution_k: [air.temperature_k.max(params.clear_k), fuel.row().flame_k],
         };
         // Without metal its dilution is nothing: so that equal glows are equal.
         if glow.has_metal() {
@@ -114,6 +117,11 @@ impl Glow {
     /// Of the air, and of gas that holds all of its salt, K.
     pub fn dilution_k(&self) -> [f64; 2] {
         self.dilution_k
+    }
+
+    /// Temperature above which gas holds any of the salt as vapour, K.
+    pub fn vapour_above_k(&self) -> f64 {
+        self.dilution_k[0].max(VAPOUR_K[0])
     }
 
     /// Share 0 to 1 of the salt's mole fraction that gas of a temperature holds as vapour.

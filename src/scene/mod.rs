@@ -57,7 +57,7 @@ pub(crate) fn pack_for_tests(
         ambient_k: 300.0,
         gas: packing::GasFields {
             burning: maps.flame.as_ref().map(|_| packing::Burning::Field),
-            hot: maps.flame.is_some(),
+            hot_above_k: maps.flame.as_ref().map(|_| glow::VAPOUR_K[0]),
         },
         interpolation,
     };

@@ -4,7 +4,6 @@ use glam::{DAffine3, DVec3, IVec3, UVec3};
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::glow::VAPOUR_K;
 use super::interpolation::Interpolation;
 use super::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, Peaks, SAMPLES, Sample};
 use super::source::Source;
@@ -69,12 +68,12 @@ pub(super) struct Fields<'a> {
 }
 
 /// What of the gas is packed beside soot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct GasFields {
     /// Whether burning gas glows, and what says where it burns.
     pub(super) burning: Option<Burning>,
-    /// Whether hot gas glows: then bricks without soot are stored where a salt is vapour.
-    pub(super) hot: bool,
+    /// Temperature above which gas glows by its heat, K: bricks without soot are stored where it is hotter.
+    pub(super) hot_above_k: Option<f64>,
 }
 
 /// What says where gas burns.
@@ -160,7 +159,7 @@ impl Fields<'_> {
             interpolation: self.interpolation,
             ..empty()
         };
-        medium.keep_what_shows(occupied, self.gas.hot);
+        medium.keep_what_shows(occupied, self.gas.hot_above_k);
         Ok(medium)
     }
 }
@@ -169,8 +168,8 @@ impl Medium {
     /// Enters the packed bricks into the table, closing the gaps of those in which nothing shows (a brick beside one
     /// with soot only in its far corner), and notes the peaks. A smooth interpolation reads from the neighbours of what
     /// shows, so it keeps them.
-    fn keep_what_shows(&mut self, packed: &[UVec3], hot: bool) {
-        let vapour_k = VAPOUR_K[0] as f32;
+    fn keep_what_shows(&mut self, packed: &[UVec3], hot_above_k: Option<f64>) {
+        let hot_above_k = hot_above_k.map_or(f32::INFINITY, |kelvin| kelvin as f32);
         let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
         let parts: Vec<Option<Peaks>> = bricks
             .enumerate()
@@ -178,7 +177,7 @@ impl Medium {
                 let mut peaks = None;
                 for (at, sample) in samples.iter().enumerate() {
                     let flame = self.flame_of(i * BRICK_SAMPLES + at);
-                    if sample[0] > 0.0 || flame > 0.0 || (hot && sample[1] > vapour_k) {
+                    if sample[0] > 0.0 || flame > 0.0 || sample[1] > hot_above_k {
                         peaks
                             .get_or_insert_with(Peaks::default)
                             .note(*sample, flame);

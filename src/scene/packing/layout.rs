@@ -2,7 +2,6 @@
 
 use glam::{IVec3, UVec3};
 
-use super::super::glow::VAPOUR_K;
 use super::super::interpolation::Interpolation;
 use super::super::medium::{BRICK, BRICK_SAMPLES, Sample};
 use super::super::source::Source;
@@ -56,9 +55,8 @@ impl<'a> Layout<'a> {
         });
         let hot = fields
             .gas
-            .hot
-            .then(|| Some((source(&maps.temperature, 1.0)?, VAPOUR_K[0])))
-            .flatten();
+            .hot_above_k
+            .and_then(|kelvin| Some((source(&maps.temperature, 1.0)?, kelvin)));
         let gases: Vec<(Source<'a>, f64)> = burning.into_iter().chain(hot).collect();
 
         let absorbing = absorbers.iter().map(|source| (source, 0.0));

@@ -166,13 +166,16 @@ fn hot_air_is_refused_before_it_is_allocated_and_its_flame_field_counts() {
         max_bytes: 2 << 20,
         ..Limits::default()
     };
-    let bytes = |hot: bool, burning: Option<Burning>| {
+    let bytes = |hot_above_k: Option<f64>, burning: Option<Burning>| {
         let fields = Fields {
             volume: &volume,
             maps: &maps,
             amounts: [1.0, 0.0],
             ambient_k: 300.0,
-            gas: GasFields { burning, hot },
+            gas: GasFields {
+                burning,
+                hot_above_k,
+            },
             interpolation: Interpolation::Tricubic,
         };
         match fields.pack(&DAffine3::IDENTITY, &limits) {
@@ -181,9 +184,9 @@ fn hot_air_is_refused_before_it_is_allocated_and_its_flame_field_counts() {
             Err(other) => panic!("{other}"),
         }
     };
-    assert!(bytes(false, None).is_ok() && bytes(false, Some(Burning::Field)).is_ok());
-    let plain = bytes(true, None).unwrap_err();
-    let burning = bytes(true, Some(Burning::Field)).unwrap_err();
+    assert!(bytes(None, None).is_ok() && bytes(None, Some(Burning::Field)).is_ok());
+    let plain = bytes(Some(900.0), None).unwrap_err();
+    let burning = bytes(Some(900.0), Some(Burning::Field)).unwrap_err();
     assert_eq!(
         3 * plain,
         2 * burning,
