@@ -7,10 +7,9 @@ use glam::DVec3;
 use super::job::Job;
 use super::settings::{CameraSettings, FieldSettings, Project};
 use crate::math::Aabb;
-use crate::scene::Fuel;
-use crate::scene::flame;
 use crate::scene::glow::VAPOUR_K;
-use crate::volume::{self, FieldKind, GLOW_K, PEAK_K, figures};
+use crate::scene::{Fuel, GlowParams, Salt, flame};
+use crate::volume::{FieldKind, GLOW_K, PEAK_K, figures};
 
 /// Why nothing is seen.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +27,7 @@ pub enum Mend {
     SootAmount,
     /// Take the smoke as the file has it.
     SmokeAmount,
-    /// Burn the default fuel, which makes soot.
+    /// Burn what makes soot.
     Fuel,
     /// Take the field as the producer's preset does.
     Field(FieldKind),
@@ -49,24 +48,49 @@ const AMBIENT_K: f64 = 300.0;
 impl Darkness {
     /// Why a black picture of this job is black.
     pub fn of(job: &Job) -> Self {
-        let no_soot = no_soot(job);
-        // Gas that shines by itself needs no soot: then want of it is the last of the reasons.
-        let (first, last) = if job.flame.shining_gas().is_empty() {
-            (no_soot, None)
-        } else {
-            (None, no_soot)
-        };
-        first
+        no_soot(job)
             .or_else(|| too_cold(job))
             .or_else(|| out_of_sight(job))
-            .or(last)
-            .unwrap_or_else(|| Self {
-                words: format!(
-                    "the picture is black: where the fire is above {GLOW_K} K there is too little soot to glow"
-                ),
-                mend: (job.flame.soot_amount < 1.0).then_some(Mend::SootAmount),
+            .unwrap_or_else(|| {
+                let what = if glows_beside_soot(job) {
+                    "what glows is too faint to be seen"
+                } else {
+                    "there is too little soot to glow"
+                };
+                let more = if burns_without_soot(job) {
+                    Mend::Fuel
+                } else {
+                    Mend::SootAmount
+                };
+                Self {
+                    words: format!(
+                        "the picture is black: where the fire is above {GLOW_K} K {what}"
+                    ),
+                    mend: (job.flame.soot_amount < 1.0).then_some(more),
+                }
             })
     }
+}
+
+/// Whether the fuel says how much soot there is, and that is none.
+fn burns_without_soot(job: &Job) -> bool {
+    job.soot_follows_fuel && job.flame.fuel.row().soot_yield <= 0.0
+}
+
+/// Whether a salt or radicals may glow.
+fn glows_beside_soot(job: &Job) -> bool {
+    let flame = &job.flame;
+    let without = |glow: GlowParams| {
+        let mut other = flame.clone();
+        other.glow = glow;
+        other
+    };
+    let none = without(GlowParams {
+        salt: Salt::default(),
+        radicals: 0.0,
+        ..flame.glow
+    });
+    !flame.gives_same_light_as(&none)
 }
 
 fn no_soot(job: &Job) -> Option<Darkness> {
@@ -74,21 +98,19 @@ fn no_soot(job: &Job) -> Option<Darkness> {
     let amounts = [flame.soot_amount, flame.smoke_amount];
     let kinds = [FieldKind::Soot, FieldKind::Smoke];
     let densest = |kind| physical_range(job, kind).map_or(0.0, |(_, high)| high);
-    if (0..2).any(|i| amounts[i] * densest(kinds[i]) > 0.0) {
+    if glows_beside_soot(job) || (0..2).any(|i| amounts[i] * densest(kinds[i]) > 0.0) {
         return None;
     }
-    let fuel = flame.fuel.row();
-    Some(if densest(FieldKind::Soot) > 0.0 {
-        if job.soot_follows_fuel && fuel.soot_yield <= 0.0 {
-            Darkness {
-                words: format!("the picture is black: {} makes no soot", fuel.name),
-                mend: Some(Mend::Fuel),
-            }
-        } else {
-            Darkness {
-                words: "the picture is black: the amount of soot is 0".to_owned(),
-                mend: Some(Mend::SootAmount),
-            }
+    Some(if burns_without_soot(job) {
+        Darkness {
+            words: "the picture is black: this fuel burns without soot, and nothing else glows. Add a salt, or burn another"
+                .to_owned(),
+            mend: Some(Mend::Fuel),
+        }
+    } else if densest(FieldKind::Soot) > 0.0 {
+        Darkness {
+            words: "the picture is black: the amount of soot is 0".to_owned(),
+            mend: Some(Mend::SootAmount),
         }
     } else if densest(FieldKind::Smoke) > 0.0 {
         Darkness {
@@ -107,10 +129,8 @@ fn no_soot(job: &Job) -> Option<Darkness> {
 /// Back to the preset's mapping of a field, if it is another one.
 fn as_proposed(job: &Job, kind: FieldKind) -> Option<Mend> {
     let changed = job.flame.maps.get(kind) != job.proposed.get(kind);
-    let preset = volume::preset(job.producer, &job.volume);
     let off = job.flame.maps.get(kind).is_none();
-    let has_it = preset.maps.get(kind).is_some();
-    ((changed || off) && has_it).then_some(Mend::Field(kind))
+    (changed || off).then_some(Mend::Field(kind))
 }
 
 fn too_cold(job: &Job) -> Option<Darkness> {
@@ -123,7 +143,7 @@ fn too_cold(job: &Job) -> Option<Darkness> {
     let Some((_, hottest)) = physical_range(job, FieldKind::Temperature) else {
         return (job.flame.air.temperature_k < least_k).then(|| Darkness {
             words: "the picture is black: there is no temperature field, so all gas is as cold as the air".to_owned(),
-            mend: as_proposed(job, FieldKind::Temperature),
+            mend: Some(Mend::Field(FieldKind::Temperature)),
         });
     };
     if hottest >= least_k {
@@ -200,12 +220,7 @@ impl Mend {
         match *self {
             Self::SootAmount => project.soot.amount = 1.0,
             Self::SmokeAmount => project.smoke.amount = 1.0,
-            Self::Fuel => {
-                project.fuel.name = Fuel::default();
-                if project.soot.amount <= 0.0 {
-                    project.soot.amount = 1.0;
-                }
-            }
+            Self::Fuel => project.fuel.name = Fuel::default(),
             Self::Field(kind) => *project.volume.field_mut(kind) = FieldSettings::default(),
             Self::Heat { scale, offset } => {
                 let grid = project.volume.temperature.grid.take();
@@ -248,6 +263,33 @@ mod tests {
     fn every_black_picture_is_mended_by_its_button() {
         for (assignments, reason) in [
             (&["soot.amount=0"][..], "amount of soot is 0"),
+            (
+                &[
+                    "soot.amount=0",
+                    "fuel.salt=sodium",
+                    "camera.eye=[0, -3, 0]",
+                    "camera.target=[0, -4, 0]",
+                ],
+                "looks elsewhere",
+            ),
+            (&["fuel.name=methanol"], "burns without soot"),
+            (
+                &[
+                    "fuel.name=methanol",
+                    "fuel.salt=copper",
+                    "fuel.salt_ppm=1e-30",
+                ],
+                "too faint",
+            ),
+            (
+                &[
+                    "soot.amount=0",
+                    "fuel.salt=sodium",
+                    "volume.temperature.scale=0.4",
+                    "volume.temperature.min=0",
+                ],
+                "no voxel is above 900 K",
+            ),
             (&["volume.soot.scale=0"], "no voxel holds soot"),
             (
                 &["volume.temperature.scale=0.2", "volume.temperature.min=0"],
@@ -259,30 +301,6 @@ mod tests {
                 "looks elsewhere",
             ),
             (&["soot.amount=1e-30"], "too little soot"),
-            (&["fuel.name=methanol"], "makes no soot"),
-            // With a salt a flame without soot is no reason to be black.
-            (
-                &[
-                    "soot.amount=0",
-                    "fuel.salt=sodium",
-                    "camera.eye=[0, -3, 0]",
-                    "camera.target=[0, -4, 0]",
-                ],
-                "looks elsewhere",
-            ),
-            (
-                &[
-                    "fuel.name=methanol",
-                    "fuel.salt=sodium",
-                    "volume.temperature.scale=0.4",
-                    "volume.temperature.min=0",
-                ],
-                "no voxel is above 900 K",
-            ),
-            (
-                &["soot.amount=0", "fuel.salt=copper", "fuel.salt_ppm=1e-30"],
-                "amount of soot is 0",
-            ),
             (
                 &[
                     "volume.soot.grid=",

@@ -6,6 +6,7 @@
 use super::job::Job;
 use crate::physics::soot::{Hold, SootModel};
 use crate::scene::{FlameParams, Fuel};
+use crate::volume::FieldMap;
 
 /// A control whose effect depends on the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,13 +40,10 @@ pub enum Control {
 /// Why a control cannot change this job's picture; `None` if it can.
 pub fn why_idle(job: &Job, control: Control) -> Option<String> {
     let flame = &job.flame;
-    let no_soot = !flame.has_soot();
-    // Soot for each unit of the amount that a person sets.
-    let soot_yield = if job.soot_follows_fuel {
-        flame.fuel.row().soot_yield
-    } else {
-        1.0
-    };
+    let sootless = job.soot_follows_fuel && flame.fuel.row().soot_yield <= 0.0;
+    let is_none = |map: &Option<FieldMap>, amount: f64| map.is_none() || amount <= 0.0;
+    let no_soot = is_none(&flame.maps.soot, flame.soot_amount)
+        && is_none(&flame.maps.smoke, flame.smoke_amount);
     let words = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
             "the file says how much soot there is, and this soot model has one soot for all fuels: choose another below"
@@ -64,7 +62,7 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
             "with its volume kept, soot of any radius absorbs and glows alike; scattering, which would tell, is not \
              computed"
         }
-        Control::SootAmount if soot_yield <= 0.0 => "this fuel makes no soot",
+        Control::SootAmount if sootless => "this fuel burns without soot",
         Control::SootAmount => "this volume has no soot field",
         Control::SmokeAmount => "this volume has no smoke field: choose a grid for it under Volume",
         Control::SaltAmount => "there is no salt",
@@ -98,12 +96,11 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::Fuel => {
             // Grey soot is no fuel's; that it would differ says nothing of the others.
             let mut sooty = Fuel::all().filter(|fuel| fuel.row().soot.is_some());
-            // A fuel that makes no soot can be left for one that does.
-            let follows = job.soot_follows_fuel && (!no_soot || soot_yield <= 0.0);
+            let follows = job.soot_follows_fuel && (sootless || !no_soot);
             !follows && sooty.all(|fuel| same(&|f| f.fuel = fuel))
         }
         Control::SootRadius => no_soot || same(&|f| f.soot_radius_nm *= 1.5),
-        Control::SootAmount => same(&|f| f.soot_amount += soot_yield),
+        Control::SootAmount => sootless || same(&|f| f.soot_amount += 1.0),
         Control::SmokeAmount => same(&|f| f.smoke_amount += 1.0),
         Control::SaltAmount => same(&|f| f.glow.salt_ppm += 1.0),
         Control::BlueGlow => same(&|f| f.glow.radicals += 1.0),
@@ -161,12 +158,17 @@ mod tests {
     }
 
     #[test]
-    fn a_fuel_without_soot_says_so_and_can_be_left_again() {
-        let spirit = ["fuel.name=methanol"];
-        assert_eq!(idle(&spirit, Control::Fuel), None);
-        let words = idle(&spirit, Control::SootAmount).unwrap();
-        assert!(words.contains("makes no soot"), "{words}");
-        let given = ["fuel.name=methanol", "volume.soot.scale=1"];
+    fn a_fuel_without_soot_says_so_and_can_be_changed_for_another() {
+        let clean = "fuel.name=methanol";
+        let words = idle(&[clean], Control::SootAmount).unwrap();
+        assert!(words.contains("without soot"), "{words}");
+        for control in [Control::SootModel, Control::SootRadius, Control::Hold] {
+            let words = idle(&[clean], control);
+            assert_eq!(words.as_deref(), Some("there is no soot"), "{control:?}");
+        }
+        assert_eq!(idle(&[clean], Control::Fuel), None);
+        // Where the amount was said by hand, the fuel does not say it.
+        let given = [clean, "volume.soot.scale=1"];
         assert_eq!(idle(&given, Control::SootAmount), None);
     }
 

@@ -122,9 +122,9 @@ impl Project {
             },
         };
         flame.check(volume)?;
+        // Whether what is not there is shown makes no other picture.
         if !flame.shining_gas().has_radicals() {
-            // Whether what is not there is shown makes no other picture.
-            settings.effects = Effects::default();
+            settings.effects.chemiluminescence = Switch::default();
         }
         Ok(Job {
             volume: Arc::clone(volume),
