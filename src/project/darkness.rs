@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::job::Job;
 use super::settings::{CameraSettings, FieldSettings, Project};
 use crate::math::Aabb;
+use crate::scene::glow::VAPOUR_K;
 use crate::scene::{Fuel, GlowParams, Salt, flame};
 use crate::volume::{FieldKind, GLOW_K, PEAK_K, figures};
 
@@ -133,13 +134,19 @@ fn as_proposed(job: &Job, kind: FieldKind) -> Option<Mend> {
 }
 
 fn too_cold(job: &Job) -> Option<Darkness> {
+    let least_k = match (job.flame.has_soot(), job.flame.gas_shines_by_heat()) {
+        (true, _) => GLOW_K,
+        (false, true) => VAPOUR_K[0],
+        // Heat would show nothing.
+        (false, false) => return None,
+    };
     let Some((_, hottest)) = physical_range(job, FieldKind::Temperature) else {
-        return (job.flame.air.temperature_k < GLOW_K).then(|| Darkness {
+        return (job.flame.air.temperature_k < least_k).then(|| Darkness {
             words: "the picture is black: there is no temperature field, so all gas is as cold as the air".to_owned(),
             mend: Some(Mend::Field(FieldKind::Temperature)),
         });
     };
-    if hottest >= GLOW_K {
+    if hottest >= least_k {
         return None;
     }
     let map = job.flame.maps.temperature.as_ref()?;
@@ -152,7 +159,7 @@ fn too_cold(job: &Job) -> Option<Darkness> {
     };
     Some(Darkness {
         words: format!(
-            "the picture is black: no voxel is above {GLOW_K} K, the hottest has {} K. Is the temperature's scale right?",
+            "the picture is black: no voxel is above {least_k} K, the hottest has {} K. Is the temperature's scale right?",
             figures(hottest.round())
         ),
         mend: scale.is_finite().then_some(heat),
@@ -256,6 +263,15 @@ mod tests {
     fn every_black_picture_is_mended_by_its_button() {
         for (assignments, reason) in [
             (&["soot.amount=0"][..], "amount of soot is 0"),
+            (
+                &[
+                    "soot.amount=0",
+                    "fuel.salt=sodium",
+                    "camera.eye=[0, -3, 0]",
+                    "camera.target=[0, -4, 0]",
+                ],
+                "looks elsewhere",
+            ),
             (&["fuel.name=methanol"], "burns without soot"),
             (
                 &[
@@ -269,10 +285,10 @@ mod tests {
                 &[
                     "soot.amount=0",
                     "fuel.salt=sodium",
-                    "volume.temperature.scale=0.2",
+                    "volume.temperature.scale=0.4",
                     "volume.temperature.min=0",
                 ],
-                "no voxel is above 700 K",
+                "no voxel is above 900 K",
             ),
             (&["volume.soot.scale=0"], "no voxel holds soot"),
             (

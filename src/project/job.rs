@@ -94,7 +94,7 @@ impl Project {
             up,
             metres_per_unit,
         };
-        let mut settings = self.settings(self.render.size)?;
+        let settings = self.settings(self.render.size)?;
         let camera = self.camera(volume, &maps, &placement, settings.size);
         camera.view(settings.size)?;
         let glow = self.glow(volume, &maps, &mut flaws);
@@ -122,10 +122,6 @@ impl Project {
             },
         };
         flame.check(volume)?;
-        if !flame.shining_gas().has_radicals() {
-            // Whether what is not there is shown makes no other picture.
-            settings.effects = Effects::default();
-        }
         Ok(Job {
             volume: Arc::clone(volume),
             flame,
@@ -358,12 +354,6 @@ mod tests {
             (&["fuel.salt_ppm=0"], "fuel.salt=copper"),
             // Nothing says what burns.
             (&[], "fuel.blue_glow=2"),
-            (&[], "effects.chemiluminescence=off"),
-            (&[field, "fuel.blue_glow=0"], "effects.chemiluminescence=on"),
-            (
-                &["fuel.name=black-body", field],
-                "effects.chemiluminescence=off",
-            ),
             (&["fuel.blue_glow=0"], field),
             // The file says how hot the gas is.
             (&[], "air.temperature_k=350"),

@@ -38,7 +38,8 @@ fn is_installed(tool: &str) -> bool {
 /// Opens the window, drops the file, does what `$HANDS` says, and closes the window again, whatever came of it.
 const SCRIPT: &str = r#"
 # In a folder of its own: what it writes by mistake is not left lying about.
-(cd "$XDG_DATA_HOME" && exec "$PROGRAM") & program=$!
+mkdir "$XDG_DATA_HOME/elsewhere"
+(cd "$XDG_DATA_HOME/elsewhere" && exec "$PROGRAM") & program=$!
 "$PYTHON" tests/drop_file.py --until-titled "$TITLE" Sootlight "$FILE" & drop=$!
 wait -n $program $drop
 dropped=$?
