@@ -246,3 +246,25 @@ fn vapour([air_k, per_k]: [f32; 2], inverse_temperature: &Lanes) -> Lanes {
         mixed * t * t * (3.0 - 2.0 * t)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Air, Fuel, Glow, GlowParams, Salt};
+
+    #[test]
+    fn the_richest_flame_has_room() {
+        for salt in Salt::all() {
+            for fuel in Fuel::all() {
+                let params = GlowParams {
+                    salt,
+                    salt_ppm: 1.0,
+                    radicals: 1.0,
+                    ..GlowParams::default()
+                };
+                let features = Glow::new(&params, fuel, &Air::default()).features().len();
+                assert!(features <= MAX_FEATURES, "{salt:?} in {fuel:?}: {features}");
+            }
+        }
+    }
+}
