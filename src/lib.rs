@@ -16,8 +16,8 @@
 //!  6 project      all that a person can set: the scene file, --set, presets
 //!  5 render       THE CORE: plan, march, film, passes, develop, the unbiased reference. Headless, no clock, no
 //!                 global state
-//!  4 scene        Flame (volume + fuel + air), Camera, wavelength sets
-//!  3 volume       grids in memory and on disk, field mappings, the built-in flame
+//!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot, Camera, wavelength sets
+//!  3 volume       grids in memory and on disk, field mappings, the built-in flames
 //!  2 physics      laws: f64, SI, no grids, no pictures
 //!    colour       the standard observer, adaptation, display
 //!  1 spectral     wavelengths with weights
@@ -30,9 +30,11 @@
 //!
 //! * **radiance** L, spectral: W m⁻² sr⁻¹ nm⁻¹. Wavelengths are vacuum wavelengths in nm.
 //! * **soot volume fraction** f_v: volume of soot per volume of gas, dimensionless, 1e-8 to 1e-5.
-//! * **absorption coefficient** σ_a, **emission coefficient** j = σ_a B(λ, T); **optical depth** τ = ∫ σ ds.
+//! * **absorption coefficient** σ_a, **emission coefficient** j = σ_a B(λ, T), and more where
+//!   radicals glow; **optical depth** τ = ∫ σ ds.
 //! * **XYZ**: Σ L x̄ Δλ with the CIE 1931 2° observer, W m⁻² sr⁻¹; luminance is 683 Y cd m⁻².
 //! * **medium**: the volume's fields mapped to physical units and packed for the march.
+//! * **feature**: a line, a band or a part of the radicals' light, carried at a wavelength of its own.
 //! * **film**: the only place where a spectrum becomes three numbers.
 //! * **flaw**: what could not be faithful, carried with the frame and told to the person.
 
