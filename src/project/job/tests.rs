@@ -1,0 +1,70 @@
+//! Which settings ask for which picture.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+use super::*;
+use crate::volume::procedural;
+
+/// Whether a change of settings asks for another picture of the torch.
+fn asks_anew(before: &[&str], change: &str) -> bool {
+    let volume = Arc::new(procedural::torch());
+    let job = |assignments: &[&str]| {
+        let mut project = Project::default();
+        project.set_all(assignments.iter().copied()).unwrap();
+        project.job(&volume).unwrap()
+    };
+    job(before) != job(&[before, &[change]].concat())
+}
+
+#[test]
+fn gas_of_which_a_file_says_nothing_holds_no_salt_however_hot_its_mapping_is() {
+    // As of EmberGen's heat, whose zero is 1300 K: without this the whole box would glow.
+    let mut project = Project::default();
+    let hot = ["fuel.salt=sodium", "volume.temperature.offset=1300"];
+    project.set_all(hot).unwrap();
+    let job = project.job(&Arc::new(procedural::torch())).unwrap();
+    assert_eq!(
+        job.flame.glow.clear_k, 1600.0,
+        "300 K of the file's own, and the offset"
+    );
+    let scene = job.scene(None);
+    let glow = scene.flame.glow();
+    assert_eq!(glow.vapour_share(1600.0), 0.0);
+    assert!(glow.vapour_share(1700.0) > 0.0);
+    let (stored, all) = scene.flame.medium().occupancy();
+    assert!(stored < all / 2, "{stored} of {all} bricks");
+}
+
+#[test]
+fn only_what_changes_the_light_asks_for_a_picture() {
+    let field = "volume.flame.grid=soot";
+    for (before, change) in [
+        (&["fuel.salt=sodium"][..], "fuel.salt_ppm=20"),
+        (&["fuel.salt=sodium"], "fuel.salt=copper"),
+        (&["fuel.salt=sodium"], "fuel.name=acetylene"),
+        (&["fuel.salt=sodium"], "air.temperature_k=350"),
+        (&["fuel.salt=sodium"], "effects.lines=off"),
+        (&[field], "fuel.blue_glow=2"),
+        (&[field], "fuel.name=acetylene"),
+        (&[field], "effects.chemiluminescence=off"),
+        (&[], "effects.chemiluminescence=on"),
+        (&["volume.temperature.grid="], "air.temperature_k=350"),
+        (&[], "render.interpolation=tricubic"),
+    ] {
+        assert!(asks_anew(before, change), "{before:?} then {change}");
+    }
+    for (before, change) in [
+        (&[][..], "fuel.salt_ppm=20"),
+        (
+            &["fuel.salt=sodium", "effects.lines=off"],
+            "fuel.salt=copper",
+        ),
+        (&["fuel.salt_ppm=0"], "fuel.salt=copper"),
+        // Nothing says what burns.
+        (&[], "fuel.blue_glow=2"),
+        (&["fuel.blue_glow=0"], field),
+        // The file says how hot the gas is.
+        (&[], "air.temperature_k=350"),
+        (&[], "air.humidity=0.9"),
+    ] {
+        assert!(!asks_anew(before, change), "{before:?} then {change}");
+    }
+}
