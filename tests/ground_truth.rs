@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3, IVec3};
 use sootlight::math::Ray;
 use sootlight::physics::blackbody;
 use sootlight::render::march::Marcher;
-use sootlight::render::{Cancel, Effects, Plan, Settings, Switch, render_still};
+use sootlight::render::{Cancel, Effects, Plan, Settings, render_still};
 use sootlight::scene::{Camera, Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
 use sootlight::volume::{Border, Grid, Volume};
@@ -62,10 +62,7 @@ fn settings(size: u32, step_voxels: f64, set: WavelengthSet) -> Settings {
         step_voxels,
         wavelengths: set,
         samples_per_pixel: 1,
-        effects: Effects {
-            lines: Switch::Auto,
-            chemiluminescence: Switch::Auto,
-        },
+        effects: Effects::AUTO,
     }
 }
 

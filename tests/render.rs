@@ -17,10 +17,7 @@ const SETTINGS: Settings = Settings {
     step_voxels: 1.0,
     wavelengths: WavelengthSet::Fitted(6),
     samples_per_pixel: 2,
-    effects: Effects {
-        lines: Switch::Auto,
-        chemiluminescence: Switch::Auto,
-    },
+    effects: Effects::AUTO,
 };
 
 fn pool(threads: usize) -> rayon::ThreadPool {
@@ -75,10 +72,7 @@ fn a_coarse_pass_is_the_picture_in_small() {
     let settings = Settings {
         size: [160, 200],
         samples_per_pixel: 1,
-        effects: Effects {
-            lines: Switch::Auto,
-            chemiluminescence: Switch::Auto,
-        },
+        effects: Effects::AUTO,
         ..SETTINGS
     };
     let plan = Plan::new(&scene, &settings);

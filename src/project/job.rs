@@ -11,7 +11,9 @@ use super::settings::{Project, Up};
 use crate::render::develop::ViewParams;
 use crate::render::{Effects, Flaws, Settings, SettingsError, Switch};
 use crate::scene::camera::FRAMING_FOV_DEG;
-use crate::scene::{Air, Camera, Flame, FlameParams, GlowParams, Placement, Salt, Scene, flame};
+use crate::scene::{
+    Air, Camera, Flame, FlameParams, GlowParams, Placement, Salt, Scene, Stage, flame,
+};
 use crate::volume::{
     self, About, Assumption, FieldKind, FieldMaps, Preset, Producer, UpAxis, Volume,
 };
@@ -26,6 +28,8 @@ pub struct Job {
     pub flame: FlameParams,
     /// The eye.
     pub camera: Camera,
+    /// What stands around.
+    pub stage: Stage,
     /// How accurate.
     pub settings: Settings,
     /// What is assumed or cannot be faithful, known before a ray is marched.
@@ -45,6 +49,7 @@ impl PartialEq for Job {
         Arc::ptr_eq(&self.volume, &other.volume)
             && self.flame.gives_same_light_as(&other.flame)
             && self.camera == other.camera
+            && self.stage == other.stage
             && self.settings == other.settings
     }
 }
@@ -60,6 +65,7 @@ impl Job {
         Scene {
             flame,
             camera: self.camera,
+            stage: self.stage.clone(),
         }
     }
 }
@@ -119,13 +125,17 @@ impl Project {
                 temperature_k: self.air.temperature_k,
                 humidity: self.air.humidity,
                 co2_ppm: self.air.co2_ppm,
+                ..Air::default()
             },
+            scattering: None,
+            bending: None,
         };
         flame.check(volume)?;
         Ok(Job {
             volume: Arc::clone(volume),
             flame,
             camera,
+            stage: Stage::default(),
             settings,
             flaws,
             producer,
@@ -192,6 +202,7 @@ impl Project {
             effects: Effects {
                 lines: self.effects.lines,
                 chemiluminescence: self.effects.chemiluminescence,
+                ..Effects::default()
             },
         }
         .validated()

@@ -207,6 +207,7 @@ impl Default for AirSettings {
             temperature_k,
             humidity,
             co2_ppm,
+            ..
         } = Air::default();
         Self {
             temperature_k,

@@ -18,15 +18,18 @@ use crate::scene::{Scene, WavelengthSet};
 
 mod chord;
 pub mod develop;
+pub mod fields;
 pub mod film;
 pub mod glow;
 mod growth;
+mod irradiance;
 mod lookup;
 pub mod march;
 pub mod null_collision;
 pub mod pass;
 pub mod plan;
 pub mod probe;
+mod scatter;
 mod walk;
 pub mod white;
 
@@ -57,6 +60,26 @@ pub struct Effects {
     pub lines: Switch,
     /// Light of radicals in the reaction zone. Auto: unless soot outshines it.
     pub chemiluminescence: Switch,
+    /// The fire's own light, scattered once by soot and smoke. Auto: where it can be seen.
+    pub scattering: Switch,
+    /// Light bent by hot gas. Auto: where something behind the fire shows it.
+    pub refraction: Switch,
+    /// Colours bent differently. Auto: never, for it is a fiftieth of the bending.
+    pub dispersion: Switch,
+    /// The fire as a light for the stage. Auto: where there is a stage.
+    pub fire_light: Switch,
+}
+
+impl Effects {
+    /// Each where it can be seen.
+    pub const AUTO: Self = Self {
+        lines: Switch::Auto,
+        chemiluminescence: Switch::Auto,
+        scattering: Switch::Auto,
+        refraction: Switch::Auto,
+        dispersion: Switch::Auto,
+        fire_light: Switch::Auto,
+    };
 }
 
 /// Whether an effect is computed.

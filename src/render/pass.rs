@@ -159,7 +159,7 @@ fn render_tile(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::{Effects, Switch};
+    use crate::render::Effects;
     use crate::scene::WavelengthSet;
 
     const SETTINGS: Settings = Settings {
@@ -167,10 +167,7 @@ mod tests {
         step_voxels: 0.5,
         wavelengths: WavelengthSet::Fitted(4),
         samples_per_pixel: 3,
-        effects: Effects {
-            lines: Switch::Auto,
-            chemiluminescence: Switch::Auto,
-        },
+        effects: Effects::AUTO,
     };
 
     #[test]

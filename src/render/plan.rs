@@ -16,6 +16,10 @@ use crate::spectral::Wavelengths;
 pub struct Node {
     /// Absorption coefficient for each unit of the medium's volume fraction, 1/m.
     pub absorption: f32,
+    /// Scattering coefficient for each unit of it that is soot, and that is smoke, 1/m; zero where scattering is off.
+    pub scattering: [f32; 2],
+    /// Mean cosine of the scattering.
+    pub asymmetry: f32,
     /// 2hc²/λ⁵, W m⁻² sr⁻¹ nm⁻¹: Planck's radiance without its exponential.
     pub planck_scale: f32,
     /// hc/(λk), K: Planck's exponent times temperature.
@@ -31,6 +35,8 @@ pub struct Plan {
     pub nodes: Vec<Node>,
     /// What glows in the gas beside soot.
     pub glow: GlowTable,
+    /// The same as features, thermal ones first, in the order in which the march carries them.
+    pub features: Vec<Feature>,
     /// Picture size in pixels.
     pub size: [u32; 2],
     /// What these settings cannot show faithfully of this scene.
@@ -112,11 +118,13 @@ impl Plan {
             .iter()
             .map(|&nm| Node {
                 absorption: scene.flame.absorption_per_sample(nm) as f32,
+                scattering: scene.flame.scattering_per_sample(nm).map(|s| s as f32),
+                asymmetry: scene.flame.asymmetry(nm) as f32,
                 planck_scale: (blackbody::FIRST_RADIATION_CONSTANT / nm.powi(5)) as f32,
                 planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
             })
             .collect();
-        let glow = GlowTable::new(&scene.flame, features);
+        let glow = GlowTable::new(&scene.flame, features.clone());
         let clearest = nodes
             .iter()
             .map(|node| node.absorption)
@@ -129,6 +137,7 @@ impl Plan {
             wavelengths,
             nodes,
             glow,
+            features,
             size,
             flaws: Flaws::default(),
             decisions: Vec::new(),

@@ -11,6 +11,7 @@ use super::interpolation::Interpolation;
 use super::medium::Medium;
 use super::packing::{self, Burning, Fields, GasFields, PackingError};
 use crate::math::Aabb;
+use crate::physics::constants::METRES_PER_NM;
 use crate::physics::soot::{self, Hold, SootLaw, SootModel};
 use crate::volume::{FieldMap, FieldMaps, Limits, UpAxis, Volume};
 
@@ -60,6 +61,28 @@ pub struct FlameParams {
     pub air: Air,
     /// How values between the samples of a field are formed.
     pub interpolation: Interpolation,
+    /// How soot and smoke scatter; `None` where that is not to be computed.
+    pub scattering: Option<ScatteringParams>,
+    /// How hot gas bends light; `None` where nothing shows it or it is not to be computed.
+    pub bending: Option<Bending>,
+}
+
+/// How soot and smoke scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScatteringParams {
+    /// Mean cosine g of the scattering, −1 to 1 open; `None`: that of a sphere of the soot's radius, by Mie's series.
+    pub asymmetry: Option<f64>,
+    /// Share of what smoke takes from light that it scatters, 0 to below 1.
+    pub smoke_albedo: f64,
+}
+
+/// How hot gas bends light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bending {
+    /// Multiplies the gradient of the refractive index; 1 is nature's.
+    pub gain: f64,
+    /// Whether colours take paths of their own.
+    pub dispersion: bool,
 }
 
 impl FlameParams {
@@ -120,6 +143,19 @@ impl FlameParams {
             volume_fraction_factor: common
                 * soot::volume_fraction_factor(self.soot_hold, self.soot_radius_nm),
             glow,
+            // Without soot and smoke nothing scatters.
+            scattering: self
+                .scattering
+                .filter(|_| self.has_soot())
+                .map(|params| Scattering {
+                    params,
+                    radius_m: self.soot_radius_nm * METRES_PER_NM,
+                }),
+            bending: self.bending.map(|bending| BentAir {
+                bending,
+                air: self.air,
+                fuel: self.fuel,
+            }),
         }
     }
 
@@ -193,6 +229,28 @@ struct Effect {
     /// Multiplies the medium's volume fraction: amount and radius.
     volume_fraction_factor: f64,
     glow: Glow,
+    scattering: Option<Scattering>,
+    bending: Option<BentAir>,
+}
+
+/// How the medium scatters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scattering {
+    /// What was asked for.
+    pub params: ScatteringParams,
+    /// Radius of the soot's primary particles, m.
+    pub radius_m: f64,
+}
+
+/// The gas that bends light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BentAir {
+    /// What was asked for.
+    pub bending: Bending,
+    /// The air around.
+    pub air: Air,
+    /// Whose products it mixes with.
+    pub fuel: Fuel,
 }
 
 /// A volume made into a medium with optics. Cheap to clone.
@@ -249,6 +307,34 @@ impl Flame {
     /// What glows in the gas beside soot.
     pub fn glow(&self) -> &Glow {
         &self.effect.glow
+    }
+
+    /// How this flame's soot and smoke scatter; `None` where that is not to be computed.
+    pub fn scattering(&self) -> Option<&Scattering> {
+        self.effect.scattering.as_ref()
+    }
+
+    /// Scattering coefficients at a wavelength for a volume fraction of the *medium* that is soot, and that is smoke, 1/m
+    /// for each unit; zero where scattering is not to be computed.
+    pub fn scattering_per_sample(&self, lambda_nm: f64) -> [f64; 2] {
+        let Some(Scattering { params, radius_m }) = self.effect.scattering else {
+            return [0.0; 2];
+        };
+        let absorption = self.absorption_per_sample(lambda_nm);
+        let ratio = self.effect.soot.scattering_ratio(lambda_nm, radius_m);
+        let albedo = params.smoke_albedo;
+        [ratio, albedo / (1.0 - albedo)].map(|ratio| absorption * ratio)
+    }
+
+    /// Mean cosine of the scattering at a wavelength, −1 to 1 open.
+    pub fn asymmetry(&self, _lambda_nm: f64) -> f64 {
+        let params = self.effect.scattering.map(|it| it.params);
+        params.and_then(|params| params.asymmetry).unwrap_or(0.0)
+    }
+
+    /// How this flame's gas bends light; `None` where that is not to be computed.
+    pub fn bending(&self) -> Option<&BentAir> {
+        self.effect.bending.as_ref()
     }
 
     /// Absorption coefficient at a wavelength for a volume fraction of the *medium*, 1/m for each unit: the

@@ -143,6 +143,8 @@ mod tests {
             glow: GlowParams::default(),
             interpolation: Interpolation::default(),
             air: Air::default(),
+            scattering: None,
+            bending: None,
         }
     }
 

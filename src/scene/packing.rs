@@ -308,6 +308,7 @@ pub(super) fn empty() -> Medium {
         table: Vec::new(),
         samples: Vec::new(),
         flame: Vec::new(),
+        smoke: Vec::new(),
         voxel_size_m: 1.0,
         interpolation: Interpolation::default(),
         peaks: Peaks::default(),
