@@ -222,7 +222,7 @@ fn the_f32_march_follows_its_f64_twin() {
         for y in 0..size {
             for x in 0..size {
                 let ray = view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
-                let exact = march_f64(&scene, &ray, step, &plan.wavelengths);
+                let exact = march_f64(&scene, &ray, step, &plan.tables.wavelengths);
                 let ours = frame.film.pixel(x, y).unwrap().xyz;
                 for c in 0..3 {
                     // Relative to the pixel's own brightness, with a floor where there is nothing to see.

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use sootlight::project::Job;
 use sootlight::render::pass::{self, Audience};
 use sootlight::render::{
-    Cancel, Effects, Film, Plan, Probe, Settings, SettingsError, Switch, render_pass, render_still,
+    Cancel, Effects, Film, Plan, Probe, Settings, SettingsError, render_pass, render_still,
 };
 use sootlight::scene::WavelengthSet;
 

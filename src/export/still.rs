@@ -167,6 +167,7 @@ mod tests {
             rays: 0,
             samples: 0,
             decisions: Vec::new(),
+            facts: crate::render::Facts::default(),
             flaws: Flaws::default(),
         };
         let still = Still::new(&project, &Arc::new(procedural::torch()), locked);

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::fields::Level;
-use super::{Cancel, Plan};
+use super::Cancel;
+use super::level::Level;
+use super::tables::Tables;
 use crate::scene::Scene;
 use crate::scene::Stage;
 
@@ -13,8 +14,13 @@ pub(super) struct FireLight {}
 
 impl FireLight {
     /// Works it out for the plan's nodes and features in the calling thread's rayon pool; `None` if cancelled.
-    pub(super) fn new(scene: &Scene, plan: &Plan, level: Level, cancel: &Cancel) -> Option<Self> {
-        let _ = (scene, plan, level, cancel);
+    pub(super) fn new(
+        scene: &Scene,
+        tables: &Tables,
+        level: Level,
+        cancel: &Cancel,
+    ) -> Option<Self> {
+        let _ = (scene, tables, level, cancel);
         Some(Self {})
     }
 

@@ -4,38 +4,41 @@ use crate::scene::Interpolation;
 use crate::scene::interpolation::spline_fetches_f32;
 use crate::scene::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES};
 
-/// Soot volume fraction, temperature in K, and the flame field.
-pub(super) type Found = [f32; 3];
+/// Soot volume fraction, temperature in K, the flame field, and the part of the soot that is smoke.
+pub(super) type Found = [f32; 4];
 
 /// What is found where no brick is: clear air.
-const CLEAR: Found = [0.0, 300.0, 0.0];
+const CLEAR: Found = [0.0, 300.0, 0.0, 0.0];
 
 /// The medium at a lattice position. The flame field is read only where `GAS` is.
 ///
 /// The position comes in f64: where the temperature changes by hundreds of kelvin in a voxel, the last bit of an
 /// f32 coordinate would show in Planck's exponential.
 #[inline(always)]
-pub(super) fn lookup<const GAS: bool>(medium: &Medium, position: [f64; 3]) -> Found {
+pub(super) fn lookup<const GAS: bool, const SCATTER: bool>(
+    medium: &Medium,
+    position: [f64; 3],
+) -> Found {
     // One way for all samples of a picture: the processor foresees it.
     match medium.interpolation {
         Interpolation::Trilinear => {
             let voxel: [i32; 3] = position.map(|p| p as i32);
             let fraction =
                 std::array::from_fn(|axis| (position[axis] - f64::from(voxel[axis])) as f32);
-            cell::<GAS>(medium, voxel, fraction)
+            cell::<GAS, SCATTER>(medium, voxel, fraction)
         }
         Interpolation::Nearest => {
             let voxel: [i32; 3] = position.map(|p| p as i32);
             let upper = std::array::from_fn(|axis| position[axis] - f64::from(voxel[axis]) >= 0.5);
-            corner::<GAS>(medium, voxel, upper)
+            corner::<GAS, SCATTER>(medium, voxel, upper)
         }
-        Interpolation::Tricubic => tricubic::<GAS>(medium, position),
+        Interpolation::Tricubic => tricubic::<GAS, SCATTER>(medium, position),
     }
 }
 
 /// The B-spline by eight linear fetches.
 #[inline(never)]
-fn tricubic<const GAS: bool>(medium: &Medium, position: [f64; 3]) -> Found {
+fn tricubic<const GAS: bool, const SCATTER: bool>(medium: &Medium, position: [f64; 3]) -> Found {
     let base: [i32; 3] = position.map(|p| p.floor() as i32);
     let fetches: [[(f32, f32); 2]; 3] = std::array::from_fn(|axis| {
         spline_fetches_f32((position[axis] - f64::from(base[axis])) as f32)
@@ -48,11 +51,11 @@ fn tricubic<const GAS: bool>(medium: &Medium, position: [f64; 3]) -> Found {
             (base[axis] + 1, high - 1.0, high_weight),
         ]
     });
-    let mut sum = [0.0; 3];
+    let mut sum = [0.0; 4];
     for (z, fz, wz) in cells[2] {
         for (y, fy, wy) in cells[1] {
             for (x, fx, wx) in cells[0] {
-                let found = cell::<GAS>(medium, [x, y, z], [fx, fy, fz]);
+                let found = cell::<GAS, SCATTER>(medium, [x, y, z], [fx, fy, fz]);
                 let weight = wx * wy * wz;
                 sum = std::array::from_fn(|c| sum[c] + weight * found[c]);
             }
@@ -63,7 +66,11 @@ fn tricubic<const GAS: bool>(medium: &Medium, position: [f64; 3]) -> Found {
 
 /// Between the eight corners of a voxel's cell, trilinear; clear air where no brick is.
 #[inline(always)]
-fn cell<const GAS: bool>(medium: &Medium, voxel: [i32; 3], fraction: [f32; 3]) -> Found {
+fn cell<const GAS: bool, const SCATTER: bool>(
+    medium: &Medium,
+    voxel: [i32; 3],
+    fraction: [f32; 3],
+) -> Found {
     let Some(first) = first_corner(medium, voxel) else {
         return CLEAR;
     };
@@ -77,15 +84,23 @@ fn cell<const GAS: bool>(medium: &Medium, voxel: [i32; 3], fraction: [f32; 3]) -
     let near = between(pair(0, 0), pair(1, 0), fraction[1]);
     let far = between(pair(0, 1), pair(1, 1), fraction[1]);
     let [soot_low, hot_low, soot_high, hot_high] = between(near, far, fraction[2]);
-    let flame = if GAS && !medium.flame.is_empty() {
+    let alone = |field: &[f32]| {
         let pair = |dy: usize, dz: usize| -> [f32; 2] {
             let at = row(dy, dz);
-            [medium.flame[at], medium.flame[at + 1]]
+            [field[at], field[at + 1]]
         };
         let near = between(pair(0, 0), pair(1, 0), fraction[1]);
         let far = between(pair(0, 1), pair(1, 1), fraction[1]);
         let [low, high] = between(near, far, fraction[2]);
         low + fraction[0] * (high - low)
+    };
+    let flame = if GAS && !medium.flame.is_empty() {
+        alone(&medium.flame)
+    } else {
+        0.0
+    };
+    let smoke = if SCATTER && !medium.smoke.is_empty() {
+        alone(&medium.smoke)
     } else {
         0.0
     };
@@ -93,12 +108,17 @@ fn cell<const GAS: bool>(medium: &Medium, voxel: [i32; 3], fraction: [f32; 3]) -
         soot_low + fraction[0] * (soot_high - soot_low),
         hot_low + fraction[0] * (hot_high - hot_low),
         flame,
+        smoke,
     ]
 }
 
 /// One of the eight corners, bit for bit; clear air where no brick is.
 #[inline(always)]
-fn corner<const GAS: bool>(medium: &Medium, voxel: [i32; 3], upper: [bool; 3]) -> Found {
+fn corner<const GAS: bool, const SCATTER: bool>(
+    medium: &Medium,
+    voxel: [i32; 3],
+    upper: [bool; 3],
+) -> Found {
     let Some(first) = first_corner(medium, voxel) else {
         return CLEAR;
     };
@@ -109,8 +129,13 @@ fn corner<const GAS: bool>(medium: &Medium, voxel: [i32; 3], upper: [bool; 3]) -
     } else {
         0.0
     };
+    let smoke = if SCATTER && !medium.smoke.is_empty() {
+        medium.smoke[at]
+    } else {
+        0.0
+    };
     let [soot, kelvin] = medium.samples[at];
-    [soot, kelvin, flame]
+    [soot, kelvin, flame, smoke]
 }
 
 /// Where the lowest corner of a voxel's cell is stored, if it is.
@@ -279,7 +304,7 @@ mod tests {
                 }
                 let [soot, kelvin] = medium.sample(position);
                 let double = [soot, kelvin, medium.flame(position)];
-                let single = lookup::<true>(&medium, position.to_array());
+                let single = lookup::<true, true>(&medium, position.to_array());
                 for c in 0..3 {
                     let scale = high[c].max(1e-12);
                     let found = f64::from(single[c]);

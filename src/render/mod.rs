@@ -23,6 +23,8 @@ pub mod film;
 pub mod glow;
 mod growth;
 mod irradiance;
+mod kernel;
+mod level;
 mod lookup;
 pub mod march;
 pub mod null_collision;
@@ -30,12 +32,15 @@ pub mod pass;
 pub mod plan;
 pub mod probe;
 mod scatter;
+pub mod tables;
 mod walk;
+mod way;
 pub mod white;
 
 pub use film::{Film, Pixel, Tile};
+pub use level::Level;
 pub use pass::{Pass, render_pass};
-pub use plan::Plan;
+pub use plan::{Facts, Plan};
 pub use probe::Probe;
 
 /// How accurate a picture is, in concrete numbers.
@@ -215,6 +220,8 @@ pub struct Frame {
     pub samples: u64,
     /// Which effects were computed, and why.
     pub decisions: Vec<plan::Decision>,
+    /// What was found out on the way.
+    pub facts: Facts,
     /// What the settings could not show faithfully.
     pub flaws: Flaws,
 }
@@ -247,6 +254,7 @@ pub fn render_still(
         }
     }
     let [rays, samples] = counts.map(AtomicU64::into_inner);
+    let facts = plan.facts();
     Some(Frame {
         film: film
             .into_inner()
@@ -254,6 +262,7 @@ pub fn render_still(
         rays,
         samples,
         decisions: plan.decisions,
+        facts,
         flaws: plan.flaws,
     })
 }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::film::{Pixel, Tile};
 use super::march::{Marcher, PACKET_SIDE};
-use super::{Cancel, Plan, Settings};
+use super::{Cancel, Level, Plan, Settings};
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
 
@@ -74,10 +74,19 @@ pub fn render_pass(
     cancel: &Cancel,
     sink: &(dyn Fn(Tile) + Sync),
 ) -> bool {
-    let Ok(marcher) = Marcher::new(scene, plan, pass.step_voxels) else {
+    // A coarse picture is not worth fine fields.
+    let level = if pass.stride > 1 {
+        Level::Coarse
+    } else {
+        Level::Fine
+    };
+    let Some(fields) = plan.fields(scene, level, cancel) else {
+        return false;
+    };
+    let Ok(marcher) = Marcher::with_fields(scene, plan, fields, pass.step_voxels) else {
         return true;
     };
-    let rays = plan.size.map(|side| side.div_ceil(pass.stride));
+    let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
     let tiles = centre_out(rays);
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     rayon::broadcast(|_| {

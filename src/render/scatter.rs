@@ -1,7 +1,8 @@
 //! The fire's own light, scattered once towards the eye.
 
-use super::fields::Level;
-use super::{Cancel, Plan};
+use super::Cancel;
+use super::level::Level;
+use super::tables::Tables;
 use crate::math::lanes::Lanes;
 use crate::scene::Scene;
 
@@ -12,8 +13,13 @@ pub(super) struct InScatter {}
 impl InScatter {
     /// Works it out for the plan's nodes and features, seen from the scene's camera, in the calling thread's rayon pool;
     /// `None` if cancelled.
-    pub(super) fn new(scene: &Scene, plan: &Plan, level: Level, cancel: &Cancel) -> Option<Self> {
-        let _ = (scene, plan, level, cancel);
+    pub(super) fn new(
+        scene: &Scene,
+        tables: &Tables,
+        level: Level,
+        cancel: &Cancel,
+    ) -> Option<Self> {
+        let _ = (scene, tables, level, cancel);
         Some(Self {})
     }
 

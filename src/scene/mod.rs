@@ -7,6 +7,7 @@
 mod air;
 pub mod camera;
 mod camera_moves;
+mod columns;
 pub mod curves;
 mod fit;
 pub mod flame;
