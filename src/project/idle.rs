@@ -4,7 +4,10 @@
 //! compared with the job itself.
 
 use super::job::Job;
+use crate::physics::moist_air::Edition;
 use crate::physics::soot::{Hold, SootModel};
+use crate::render::Switch;
+use crate::render::plan::Decision;
 use crate::scene::{FlameParams, Fuel};
 use crate::volume::FieldMap;
 
@@ -35,16 +38,61 @@ pub enum Control {
     Humidity,
     /// `air.co2_ppm`
     Co2,
+    /// `air.pressure_pa`
+    Pressure,
+    /// `air.temperature_k`
+    AirTemperature,
+    /// `air.saturation`
+    Saturation,
+    /// `air.refraction_gain`
+    RefractionGain,
+    /// `effects.dispersion`
+    Dispersion,
+    /// `soot.asymmetry`
+    Asymmetry,
+    /// `smoke.albedo`
+    SmokeAlbedo,
+    /// `stage.ground_colour`, `stage.sphere_colour`, `stage.log_colour`
+    StageColour,
 }
 
-/// Why a control cannot change this job's picture; `None` if it can.
-pub fn why_idle(job: &Job, control: Control) -> Option<String> {
-    let flame = &job.flame;
+/// Why something that acts through an effect does not, as the words after its name.
+fn without(effect: &str, switch: Switch, decisions: &[Decision], nothing: &str) -> String {
+    let decided = decisions.iter().find(|it| it.effect == effect && !it.on);
+    match (switch, decided) {
+        (Switch::Off, _) => format!("{effect}, which is off: switch it on under Effects"),
+        (_, Some(decision)) => format!("{effect}, which is not computed: {}", decision.reason),
+        _ => format!("{effect}; {nothing}"),
+    }
+}
+
+/// Why a control cannot change this job's picture; `None` if it can. `decisions` are those of the job's plan; empty while
+/// there is none yet.
+pub fn why_idle(job: &Job, control: Control, decisions: &[Decision]) -> Option<String> {
+    // What the plan leaves out makes no difference, whatever was asked for.
+    let is_left_out = |effect: &str| decisions.iter().any(|it| it.effect == effect && !it.on);
+    let mut flame = job.flame.clone();
+    flame.scattering = flame.scattering.filter(|_| !is_left_out("scattering"));
+    flame.bending = flame.bending.filter(|_| !is_left_out("refraction"));
+    let flame = &flame;
+    let effects = &job.settings.effects;
+    let scattering = || {
+        without(
+            "scattering",
+            effects.scattering,
+            decisions,
+            "there is none here",
+        )
+    };
+    let refraction = || {
+        let nothing = "nothing behind the fire shows it: add a backdrop or a stage";
+        without("refraction", effects.refraction, decisions, nothing)
+    };
     let sootless = job.soot_follows_fuel && flame.fuel.row().soot_yield <= 0.0;
     let is_none = |map: &Option<FieldMap>, amount: f64| map.is_none() || amount <= 0.0;
     let no_soot = is_none(&flame.maps.soot, flame.soot_amount)
         && is_none(&flame.maps.smoke, flame.smoke_amount);
-    let words = match control {
+    let words: &str = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
             "the file says how much soot there is, and this soot model has one soot for all fuels: choose another below"
         }
@@ -57,10 +105,10 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
             "only the blue glow reads it, and there is none: what glows is said by “Soot from”"
         }
         Control::Fuel => "the soot of these fuels absorbs alike under this soot model",
-        Control::SootRadius => {
-            "with its volume kept, soot of any radius absorbs and glows alike; scattering, which would tell, is not \
-             computed"
-        }
+        Control::SootRadius => &format!(
+            "with its volume kept, soot of any radius absorbs and glows alike; it would tell through {}",
+            scattering()
+        ),
         Control::SootAmount if sootless => "this fuel burns without soot",
         Control::SootAmount => "this volume has no soot field",
         Control::SmokeAmount => "this volume has no smoke field: choose a grid for it under Volume",
@@ -71,8 +119,32 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::BlueGlow => {
             "no field says where gas burns: choose one for “Flame from” under Volume"
         }
-        Control::Humidity => "humidity acts through refraction; nothing behind the fire shows it",
-        Control::Co2 => "CO₂ acts through refraction; nothing behind the fire shows it",
+        Control::Humidity => &format!("humidity acts through {}", refraction()),
+        Control::Co2 => &format!("CO₂ acts through {}", refraction()),
+        Control::Pressure => &format!("pressure acts through {}", refraction()),
+        Control::Saturation => &format!("humidity acts through {}", refraction()),
+        Control::AirTemperature => &format!(
+            "the file says how hot all its gas is; around it heat acts through {}",
+            refraction()
+        ),
+        Control::RefractionGain => &format!("it acts through {}", refraction()),
+        Control::Dispersion => &format!("it is a part of {}", refraction()),
+        Control::Asymmetry if no_soot => "there is no soot",
+        Control::Asymmetry => &format!("it acts through {}", scattering()),
+        Control::SmokeAlbedo if is_none(&flame.maps.smoke, flame.smoke_amount) => {
+            "there is no smoke"
+        }
+        Control::SmokeAlbedo => &format!("it acts through {}", scattering()),
+        Control::StageColour => &format!(
+            "colours act through {}",
+            without(
+                "fire_light",
+                effects.fire_light,
+                decisions,
+                "nothing is lit"
+            )
+            .replace('_', " ")
+        ),
     };
     let same = |change: &dyn Fn(&mut FlameParams)| {
         let mut other = flame.clone();
@@ -105,6 +177,19 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::BlueGlow => same(&|f| f.glow.radicals += 1.0),
         Control::Humidity => same(&|f| f.air.humidity = 1.0 - f.air.humidity),
         Control::Co2 => same(&|f| f.air.co2_ppm += 100.0),
+        Control::Pressure => same(&|f| f.air.pressure_pa *= 1.5),
+        Control::AirTemperature => same(&|f| f.air.temperature_k += 10.0),
+        Control::Saturation => {
+            let both = [Edition::Ciddor1996, Edition::Nist];
+            both.into_iter()
+                .all(|edition| same(&|f| f.air.edition = edition))
+        }
+        Control::RefractionGain | Control::Dispersion => flame.bending.is_none(),
+        Control::Asymmetry => no_soot || flame.scattering.is_none(),
+        Control::SmokeAlbedo => {
+            is_none(&flame.maps.smoke, flame.smoke_amount) || flame.scattering.is_none()
+        }
+        Control::StageColour => effects.fire_light == Switch::Off || is_left_out("fire_light"),
     };
     idle.then(|| words.to_owned())
 }
@@ -122,7 +207,15 @@ mod tests {
         let mut project = Project::default();
         project.set_all(assignments.iter().copied()).unwrap();
         let job = project.job(&Arc::new(procedural::torch())).unwrap();
-        why_idle(&job, control)
+        why_idle(&job, control, &[])
+    }
+
+    fn left_out(effect: &'static str) -> Decision {
+        Decision {
+            effect,
+            on: false,
+            reason: "it is too faint".into(),
+        }
     }
 
     #[test]
@@ -184,7 +277,14 @@ mod tests {
     #[test]
     fn a_radius_acts_if_the_number_of_particles_is_kept() {
         assert_eq!(idle(&[], Control::SootRadius), None);
-        assert!(idle(&["soot.hold=volume"], Control::SootRadius).is_some());
+        // With its volume kept it still scatters otherwise.
+        assert_eq!(idle(&["soot.hold=volume"], Control::SootRadius), None);
+        let off = ["soot.hold=volume", "effects.scattering=off"];
+        assert!(
+            idle(&off, Control::SootRadius)
+                .unwrap()
+                .contains("which is off")
+        );
         assert_eq!(
             idle(&["soot.amount=0", "smoke.amount=0"], Control::SootRadius).as_deref(),
             Some("there is no soot")
@@ -212,15 +312,90 @@ mod tests {
     }
 
     #[test]
-    fn amounts_act_on_fields_that_are_there_and_air_on_nothing_yet() {
+    fn amounts_act_on_fields_that_are_there() {
         assert_eq!(idle(&[], Control::SootAmount), None);
         assert!(idle(&[], Control::SmokeAmount).is_some());
         let smoky = ["volume.smoke.grid=temperature", "volume.smoke.scale=1e-9"];
         assert_eq!(idle(&smoky, Control::SmokeAmount), None);
         let sootless = [smoky[0], smoky[1], "volume.soot.grid="];
         assert!(idle(&sootless, Control::SootAmount).is_some());
-        for control in [Control::Humidity, Control::Co2] {
-            assert!(idle(&[], control).unwrap().contains("refraction"));
+    }
+
+    #[test]
+    fn air_acts_where_something_shows_bent_light() {
+        let controls = [
+            Control::Humidity,
+            Control::Co2,
+            Control::Pressure,
+            Control::Saturation,
+            Control::AirTemperature,
+            Control::RefractionGain,
+            Control::Dispersion,
+        ];
+        for control in controls {
+            let words = idle(&[], control).unwrap();
+            assert!(
+                words.contains("add a backdrop or a stage"),
+                "{control:?}: {words}"
+            );
+            for shown in [
+                "stage.ground=true",
+                "stage.backdrop=checker",
+                "effects.refraction=on",
+            ] {
+                assert_eq!(idle(&[shown], control), None, "{control:?}, {shown}");
+            }
+            let off = idle(&["stage.ground=true", "effects.refraction=off"], control).unwrap();
+            assert!(off.contains("which is off"), "{control:?}: {off}");
+        }
+        // Air that is the gas's own heat acts without.
+        assert_eq!(
+            idle(&["volume.temperature.grid="], Control::AirTemperature),
+            None
+        );
+    }
+
+    #[test]
+    fn what_scatters_acts_where_scattering_is_computed() {
+        assert_eq!(idle(&[], Control::Asymmetry), None);
+        assert_eq!(
+            idle(&["soot.amount=0"], Control::Asymmetry).as_deref(),
+            Some("there is no soot")
+        );
+        assert_eq!(
+            idle(&[], Control::SmokeAlbedo).as_deref(),
+            Some("there is no smoke")
+        );
+        let smoky = ["volume.smoke.grid=temperature", "volume.smoke.scale=1e-9"];
+        assert_eq!(idle(&smoky, Control::SmokeAlbedo), None);
+        let off = [smoky[0], smoky[1], "effects.scattering=off"];
+        for control in [Control::Asymmetry, Control::SmokeAlbedo] {
+            assert!(idle(&off, control).unwrap().contains("which is off"));
+        }
+        assert_eq!(idle(&[], Control::StageColour), None);
+        let dark = idle(&["effects.fire_light=off"], Control::StageColour).unwrap();
+        assert_eq!(
+            dark,
+            "colours act through fire light, which is off: switch it on under Effects"
+        );
+    }
+
+    #[test]
+    fn what_the_plan_leaves_out_is_told_with_its_reason() {
+        let mut project = Project::default();
+        project
+            .set_all(["stage.ground=true", "soot.hold=volume"])
+            .unwrap();
+        let job = project.job(&Arc::new(procedural::torch())).unwrap();
+        for (control, effect) in [
+            (Control::Humidity, "refraction"),
+            (Control::Asymmetry, "scattering"),
+            (Control::SootRadius, "scattering"),
+            (Control::StageColour, "fire_light"),
+        ] {
+            assert_eq!(why_idle(&job, control, &[]), None, "{control:?}");
+            let words = why_idle(&job, control, &[left_out(effect)]).unwrap();
+            assert!(words.contains("it is too faint"), "{control:?}: {words}");
         }
     }
 }

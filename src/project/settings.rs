@@ -10,9 +10,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
-use crate::render::Switch;
-use crate::scene::{Air, Camera, Fuel, Interpolation, Salt, WavelengthSet};
+use crate::render::{Effects, Switch};
+use crate::scene::{Camera, Fuel, Interpolation, Salt, WavelengthSet};
 use crate::volume::{BuiltIn, Producer};
+
+mod air;
+mod stage;
+
+pub use air::{AirSettings, Saturation};
+pub use stage::{BackdropKind, StageSettings};
 
 /// A whole scene file.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -28,6 +34,8 @@ pub struct Project {
     pub smoke: SmokeSettings,
     /// The air around.
     pub air: AirSettings,
+    /// What stands around the fire.
+    pub stage: StageSettings,
     /// Which effects are computed.
     pub effects: EffectSettings,
     /// Where the eye is.
@@ -141,13 +149,34 @@ impl Default for FuelSettings {
 }
 
 /// `[effects]`
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct EffectSettings {
     /// Lines and bands of a salt's metal.
     pub lines: Switch,
     /// Light of radicals in the reaction zone.
     pub chemiluminescence: Switch,
+    /// The fire's own light, scattered once by soot and smoke.
+    pub scattering: Switch,
+    /// Light bent by hot gas.
+    pub refraction: Switch,
+    /// Colours bent differently.
+    pub dispersion: Switch,
+    /// The fire as a light for the stage.
+    pub fire_light: Switch,
+}
+
+impl From<EffectSettings> for Effects {
+    fn from(set: EffectSettings) -> Self {
+        Self {
+            lines: set.lines,
+            chemiluminescence: set.chemiluminescence,
+            scattering: set.scattering,
+            refraction: set.refraction,
+            dispersion: set.dispersion,
+            fire_light: set.fire_light,
+        }
+    }
 }
 
 /// `[soot]`
@@ -162,6 +191,9 @@ pub struct SootSettings {
     pub model: SootModel,
     /// What stays when the radius changes: the number of particles or the volume of soot.
     pub hold: Hold,
+    /// Mean cosine of the scattering, −0.99 to 0.99; `None`: that of spheres of the radius.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asymmetry: Option<f64>,
 }
 
 impl Default for SootSettings {
@@ -171,6 +203,7 @@ impl Default for SootSettings {
             amount: 1.0,
             model: SootModel::default(),
             hold: Hold::default(),
+            asymmetry: None,
         }
     }
 }
@@ -181,38 +214,17 @@ impl Default for SootSettings {
 pub struct SmokeSettings {
     /// Multiplies the smoke field, 0 to 10000.
     pub amount: f64,
+    /// Share of what smoke takes from light that it scatters, 0 to 0.99.
+    pub albedo: f64,
 }
 
 impl Default for SmokeSettings {
     fn default() -> Self {
-        Self { amount: 1.0 }
-    }
-}
-
-/// `[air]`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct AirSettings {
-    /// Temperature of the air, K, 200 to 400: where the volume has no temperature field.
-    pub temperature_k: f64,
-    /// Relative humidity, 0 to 1.
-    pub humidity: f64,
-    /// Carbon dioxide, parts in a million of the air's molecules, 0 to 2000.
-    pub co2_ppm: f64,
-}
-
-impl Default for AirSettings {
-    fn default() -> Self {
-        let Air {
-            temperature_k,
-            humidity,
-            co2_ppm,
-            ..
-        } = Air::default();
         Self {
-            temperature_k,
-            humidity,
-            co2_ppm,
+            amount: 1.0,
+            // The black smoke of overfire soot scatters a fifth to a quarter of what it takes: G. W. Mulholland and
+            // M. Y. Choi, Proc. Combust. Inst. 27 (1998) 1515.
+            albedo: 0.2,
         }
     }
 }
@@ -375,6 +387,21 @@ pub(super) fn everything_set() -> Project {
             smoke: field(""),
             flame: field("flames"),
             temperature: field("1"),
+        },
+        soot: SootSettings {
+            asymmetry: Some(-0.25),
+            ..SootSettings::default()
+        },
+        stage: StageSettings {
+            ground: true,
+            ground_height_m: Some(-0.1),
+            spheres: vec![[0.1, 0.2, 0.3, 0.4]],
+            logs: vec![[0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6], [1.0; 7]],
+            backdrop: BackdropKind::Picture,
+            backdrop_distance_m: Some(2.5),
+            backdrop_square_m: Some(0.25),
+            backdrop_picture: Some(PathBuf::from("behind \"it\".png")),
+            ..StageSettings::default()
         },
         camera: CameraSettings {
             eye: Some(DVec3::new(0.1, -2.0, 1e-300)),

@@ -20,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
             default: default.humidity,
             tip: "Relative humidity. Moist air bends light a little less than dry air (n − 1 falls by one part in \
                   200 from dry to saturated at 300 K), which moves what is seen through it.",
-            idle: job.and_then(|job| why_idle(job, Control::Humidity)),
+            idle: job.and_then(|job| why_idle(job, Control::Humidity, &[])),
         }
         .show(ui, &mut air.humidity);
         Knob {
@@ -32,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
             default: default.co2_ppm,
             tip: "Carbon dioxide in the air, molecules in a million. It bends light a little more than air does (n − 1 \
                   grows by one part in 2000 for each 1000 ppm), which moves what is seen through it.",
-            idle: job.and_then(|job| why_idle(job, Control::Co2)),
+            idle: job.and_then(|job| why_idle(job, Control::Co2, &[])),
         }
         .show(ui, &mut air.co2_ppm);
     });

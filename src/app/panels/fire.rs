@@ -27,7 +27,7 @@ pub(super) fn show(
 ) {
     section(ui, "Fire", true, |ui| {
         presets(ui, commands);
-        let idle = |control| job.and_then(|job| why_idle(job, control));
+        let idle = |control| job.and_then(|job| why_idle(job, control, &[]));
         fuel(
             ui,
             project,
@@ -79,7 +79,7 @@ pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, job: Option<&Jo
             default: 1.0,
             tip: "Multiplies the smoke of the file: soot beside the flame's own. Where it is cold it only darkens, \
                   where it is hot it glows.",
-            idle: job.and_then(|job| why_idle(job, Control::SmokeAmount)),
+            idle: job.and_then(|job| why_idle(job, Control::SmokeAmount, &[])),
         }
         .show(ui, &mut project.smoke.amount);
     });
@@ -300,7 +300,7 @@ fn heat(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
         tip: "Kelvin for one unit of the file's heat. Hotter soot is brighter and whiter: its light grows with about \
               the tenth power of its temperature. Solvers write heat without a unit, so this is the first number to \
               get right. What exceeds the field's bounds is cut off there, and said below.",
-        idle: job.and_then(|job| why_idle(job, Control::Heat)),
+        idle: job.and_then(|job| why_idle(job, Control::Heat, &[])),
     }
     .show(ui, &mut scale);
     if changed {
