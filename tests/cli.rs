@@ -11,6 +11,7 @@ mod fire;
 mod outputs;
 mod place;
 mod spectrum;
+mod stage;
 mod view;
 
 use place::{Place, read_png};

@@ -34,7 +34,7 @@ pub struct Written {
 }
 
 /// Whether a picture could be written here, asked before the work that it is to hold. `sources` are the files that
-/// the volume is read from.
+/// it is made from: the volume's, and the backdrop's.
 ///
 /// # Errors
 /// [`ExportError`]: the path is one of the sources, or as [`check_writable`].

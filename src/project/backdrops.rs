@@ -212,7 +212,7 @@ mod tests {
         let path = |name: &str| folder.path().join(name);
         // sRGB 188 is 0.502886 of white, 10 is 10/255/12.92 = 0.003035: by hand from the formula.
         let eight = ImageBuffer::from_fn(2, 1, |x, _| {
-            Rgb(if x == 0 { [255, 188, 10] } else { [0; 3] })
+            Rgb(if x == 0 { [255_u8, 188, 10] } else { [0; 3] })
         });
         eight.save(path("8.png")).unwrap();
         let picture = Backdrops::default().read(&path("8.png")).unwrap();

@@ -1,5 +1,7 @@
 //! From what a person set to what stands around the fire.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use glam::DVec3;
 
 use super::backdrops::Backdrops;
@@ -28,7 +30,58 @@ pub struct StageDefaults {
     pub backdrop_square_m: f64,
 }
 
+impl StageDefaults {
+    /// x, y, z and radius of a sphere beside the fire, towards a camera in front, on its ground, m.
+    pub fn sphere(&self) -> [f64; 4] {
+        let (centre, length) = (self.fire.centre(), self.log_length_m());
+        let radius = length / 8.0;
+        [
+            centre.x + 0.7 * length,
+            centre.y - 0.3 * length,
+            self.ground_height_m + radius,
+            radius,
+        ]
+    }
+
+    /// Two logs that cross under the middle of the fire, one on the ground and one that leans on it: both ends and the
+    /// radius, m.
+    pub fn logs(&self) -> [[f64; 7]; 2] {
+        let (centre, length) = (self.fire.centre(), self.log_length_m());
+        let radius = length / 16.0;
+        // A quarter turn between them, seen from above.
+        let [dx, dy] = [0.5 * length * FRAC_1_SQRT_2; 2];
+        let z = self.ground_height_m + radius;
+        let log = |[from_y, to_y]: [f64; 2], to_z| {
+            [
+                centre.x - dx,
+                centre.y + from_y,
+                z,
+                centre.x + dx,
+                centre.y + to_y,
+                to_z,
+                radius,
+            ]
+        };
+        // Where they cross, the middle lines are two radii apart: the far end is twice as high above the near one.
+        [log([-dy, dy], z), log([dy, -dy], z + 4.0 * radius)]
+    }
+
+    /// A length that suits the fire: its width, but not less than a third of its height.
+    fn log_length_m(&self) -> f64 {
+        let size = self.fire.size();
+        size.x.max(size.y).max(size.z / 3.0)
+    }
+}
+
 impl StageSettings {
+    /// Sets a ground, crossed logs and a sphere, fitted to the fire, in place of what stands here.
+    pub fn set_logs_and_a_sphere(&mut self, defaults: &StageDefaults) {
+        self.ground = true;
+        self.ground_height_m = None;
+        self.logs = defaults.logs().to_vec();
+        self.spheres = vec![defaults.sphere()];
+    }
+
     /// What this stage takes where nothing is set.
     pub(super) fn defaults(&self, fire: &Aabb, camera: &Camera) -> StageDefaults {
         let fire = if fire.is_empty() {

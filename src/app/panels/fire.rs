@@ -3,13 +3,13 @@
 use egui::Ui;
 
 use super::knob::{Choice, Knob, name, note};
-use super::{Command, section, short, unit};
+use super::{Command, Known, section, short, unit};
 use crate::physics::soot::{
     Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM, SootModel,
     volume_fraction_factor,
 };
 use crate::project::{
-    Control, FuelSettings, Job, PRESETS, Project, SootSettings, ranges, why_idle,
+    Control, FuelSettings, Job, PRESETS, Project, SmokeSettings, SootSettings, ranges,
 };
 use crate::scene::{Fuel, Salt};
 
@@ -22,12 +22,13 @@ const SCALES_K: [f64; 2] = [-1e9, 1e9];
 pub(super) fn show(
     ui: &mut Ui,
     project: &mut Project,
-    job: Option<&Job>,
+    known: Known<'_>,
     commands: &mut Vec<Command>,
 ) {
     section(ui, "Fire", true, |ui| {
         presets(ui, commands);
-        let idle = |control| job.and_then(|job| why_idle(job, control, &[]));
+        let job = known.job;
+        let idle = |control| known.idle(control);
         fuel(
             ui,
             project,
@@ -35,6 +36,22 @@ pub(super) fn show(
             [Control::Fuel, Control::SootModel].map(idle),
         );
         radius(ui, project, [Control::SootRadius, Control::Hold].map(idle));
+        Knob {
+            label: "Asymmetry",
+            unit: unit::COSINE,
+            slider: ranges::ASYMMETRY,
+            range: ranges::ASYMMETRY,
+            logarithmic: false,
+            default: 0.0,
+            tip: "Mean cosine of the angle by which soot and smoke scatter light: 0 evenly, 1 onwards, −1 back. Small \
+                  spheres scatter nearly evenly; clusters of them, as old soot is, onwards.",
+            idle: idle(Control::Asymmetry),
+        }
+        .show_optional(
+            ui,
+            &mut project.soot.asymmetry,
+            "automatic: that of spheres of the soot's radius",
+        );
         let default = SootSettings::default();
         Knob {
             label: "Soot amount",
@@ -67,9 +84,9 @@ pub(super) fn show(
 }
 
 /// Draws the section of what the file's other fields are worth.
-pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
+pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, known: Known<'_>) {
     section(ui, "Heat and smoke", true, |ui| {
-        heat(ui, project, job);
+        heat(ui, project, known);
         Knob {
             label: "Smoke amount",
             unit: unit::TIMES,
@@ -79,9 +96,21 @@ pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, job: Option<&Jo
             default: 1.0,
             tip: "Multiplies the smoke of the file: soot beside the flame's own. Where it is cold it only darkens, \
                   where it is hot it glows.",
-            idle: job.and_then(|job| why_idle(job, Control::SmokeAmount, &[])),
+            idle: known.idle(Control::SmokeAmount),
         }
         .show(ui, &mut project.smoke.amount);
+        Knob {
+            label: "Smoke albedo",
+            unit: unit::PERCENT,
+            slider: ranges::ALBEDO,
+            range: ranges::ALBEDO,
+            logarithmic: false,
+            default: SmokeSettings::default().albedo,
+            tip: "How much of the light that smoke takes it scatters; the rest it swallows. Black smoke of a sooty fire \
+                  scatters about a fifth, white smoke nearly all.",
+            idle: known.idle(Control::SmokeAlbedo),
+        }
+        .show(ui, &mut project.smoke.albedo);
     });
 }
 
@@ -277,8 +306,8 @@ fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>
 }
 
 /// How the file's heat becomes kelvin. The numbers of the preset are the defaults.
-fn heat(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
-    let maps = job.and_then(|job| {
+fn heat(ui: &mut Ui, project: &mut Project, known: Known<'_>) {
+    let maps = known.job.and_then(|job| {
         Some((
             job.flame.maps.temperature.as_ref()?,
             job.proposed.temperature.as_ref()?,
@@ -300,7 +329,7 @@ fn heat(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
         tip: "Kelvin for one unit of the file's heat. Hotter soot is brighter and whiter: its light grows with about \
               the tenth power of its temperature. Solvers write heat without a unit, so this is the first number to \
               get right. What exceeds the field's bounds is cut off there, and said below.",
-        idle: job.and_then(|job| why_idle(job, Control::Heat, &[])),
+        idle: known.idle(Control::Heat),
     }
     .show(ui, &mut scale);
     if changed {

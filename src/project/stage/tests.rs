@@ -121,6 +121,34 @@ fn light_is_bent_where_something_shows_it_or_it_was_asked_for() {
 }
 
 #[test]
+fn logs_and_a_sphere_stand_on_the_ground_and_touch_where_they_cross() {
+    let mut project = Project::default();
+    let volume = Arc::new(procedural::torch());
+    let defaults = project.job(&volume).unwrap().stage_defaults;
+    project.stage.set_logs_and_a_sphere(&defaults);
+    let stage = project.job(&volume).unwrap().stage;
+    let floor = stage.ground.unwrap().height_m;
+    let [lying, leaning] = stage.logs.as_slice() else {
+        panic!("{:?}", stage.logs)
+    };
+    let middle = |log: &Log| 0.5 * (log.ends[0] + log.ends[1]);
+    let apart = middle(leaning) - middle(lying);
+    assert!(
+        (apart - DVec3::Z * 2.0 * lying.radius_m).length() < 1e-12,
+        "{apart}"
+    );
+    for log in &stage.logs {
+        let lowest = log.ends[0].z.min(log.ends[1].z) - log.radius_m;
+        assert!((lowest - floor).abs() < 1e-12);
+    }
+    let ball = stage.spheres[0];
+    assert!((ball.centre.z - ball.radius_m - floor).abs() < 1e-12);
+    let fire = defaults.fire.centre();
+    assert!((middle(lying).truncate() - fire.truncate()).length() < 1e-12);
+    assert!(ball.centre.distance(fire) < 2.0 * defaults.fire.size().max_element());
+}
+
+#[test]
 fn air_that_cannot_be_is_refused_with_the_keys_that_would_mend_it() {
     let steam = [
         "air.temperature_k=400",
