@@ -16,8 +16,10 @@ use thiserror::Error;
 
 use crate::scene::{Scene, WavelengthSet};
 
+mod bend;
 mod chord;
 pub mod develop;
+mod eikonal;
 pub mod fields;
 pub mod film;
 pub mod glow;
@@ -30,6 +32,7 @@ pub mod pass;
 pub mod plan;
 pub mod probe;
 mod scatter;
+mod shift;
 mod walk;
 pub mod white;
 
