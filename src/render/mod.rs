@@ -16,8 +16,10 @@ use thiserror::Error;
 
 use crate::scene::{Scene, WavelengthSet};
 
+mod bend;
 mod chord;
 pub mod develop;
+mod eikonal;
 pub mod fields;
 pub mod film;
 pub mod glow;
@@ -33,6 +35,7 @@ pub mod plan;
 pub mod probe;
 mod scatter;
 pub mod tables;
+mod shift;
 mod walk;
 mod way;
 pub mod white;

@@ -64,6 +64,7 @@ pub(crate) fn pack_for_tests(
         gas: packing::GasFields {
             burning: maps.flame.as_ref().map(|_| packing::Burning::Field),
             hot_above_k: maps.flame.as_ref().map(|_| glow::VAPOUR_K[0]),
+            bends_above_k: None,
         },
         interpolation,
     };

@@ -74,6 +74,9 @@ pub(super) struct GasFields {
     pub(super) burning: Option<Burning>,
     /// Temperature above which gas glows by its heat, K: bricks without soot are stored where it is hotter.
     pub(super) hot_above_k: Option<f64>,
+    /// Temperature above which gas bends light, K: bricks without soot are stored where it is hotter, and where the
+    /// gradient reaches that hotter gas has beside it.
+    pub(super) bends_above_k: Option<f64>,
 }
 
 /// What says where gas burns.
@@ -159,7 +162,7 @@ impl Fields<'_> {
             interpolation: self.interpolation,
             ..empty()
         };
-        medium.keep_what_shows(occupied, self.gas.hot_above_k);
+        medium.keep_what_shows(occupied, self.gas);
         Ok(medium)
     }
 }
@@ -167,9 +170,9 @@ impl Fields<'_> {
 impl Medium {
     /// Enters the packed bricks into the table, closing the gaps of those in which nothing shows (a brick beside one
     /// with soot only in its far corner), and notes the peaks. A smooth interpolation reads from the neighbours of what
-    /// shows, so it keeps them.
-    fn keep_what_shows(&mut self, packed: &[UVec3], hot_above_k: Option<f64>) {
-        let hot_above_k = hot_above_k.map_or(f32::INFINITY, |kelvin| kelvin as f32);
+    /// shows, so it keeps them. Gas that only bends light is kept, and is no peak: nothing of it is seen.
+    fn keep_what_shows(&mut self, packed: &[UVec3], gas: GasFields) {
+        let hot_above_k = gas.hot_above_k.map_or(f32::INFINITY, |kelvin| kelvin as f32);
         let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
         let parts: Vec<Option<Peaks>> = bricks
             .enumerate()
@@ -201,6 +204,10 @@ impl Medium {
         if self.interpolation == Interpolation::Tricubic {
             shows = self.beside(packed, &shows);
         }
+        if let Some(kelvin) = gas.bends_above_k {
+            let bends = self.bending(packed, kelvin as f32);
+            shows.iter_mut().zip(bends).for_each(|(shows, bends)| *shows |= bends);
+        }
         let mut kept = 0;
         for (i, &brick) in packed.iter().enumerate() {
             if !shows[i] {
@@ -219,6 +226,50 @@ impl Medium {
         self.samples.shrink_to_fit();
         self.flame.truncate(kept * BRICK_SAMPLES);
         self.flame.shrink_to_fit();
+    }
+
+    /// Which bricks bend light: those that hold gas hotter than this, and those at whose border the difference between
+    /// neighbours reaches such gas. Without the latter the gradient would end in a step at a brick's face.
+    fn bending(&self, packed: &[UVec3], above_k: f32) -> Vec<bool> {
+        let edge = SAMPLES as i32;
+        let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
+        // The bricks that each one makes bend: itself, and those beside a face whose next layer is hot.
+        let reached: Vec<Vec<IVec3>> = bricks
+            .map(|samples| {
+                let mut reached = Vec::new();
+                let mut add = |step: IVec3| {
+                    if !reached.contains(&step) {
+                        reached.push(step);
+                    }
+                };
+                for (i, _) in samples.iter().enumerate().filter(|(_, s)| s[1] > above_k) {
+                    let i = i as i32;
+                    add(IVec3::ZERO);
+                    let place = [i % edge, i / edge % edge, i / (edge * edge)];
+                    for (at, axis) in place.into_iter().zip(IVec3::AXES) {
+                        match at {
+                            1 => add(-axis),
+                            _ if at == edge - 2 => add(axis),
+                            _ => {}
+                        }
+                    }
+                }
+                reached
+            })
+            .collect();
+        let mut marks = vec![false; self.table.len()];
+        for (brick, steps) in packed.iter().zip(&reached) {
+            for step in steps {
+                let beside = brick.as_ivec3() + step;
+                if beside.cmpge(IVec3::ZERO).all() && beside.cmplt(self.bricks.as_ivec3()).all() {
+                    marks[self.brick_index(beside.as_uvec3())] = true;
+                }
+            }
+        }
+        packed
+            .iter()
+            .map(|&brick| marks[self.brick_index(brick)])
+            .collect()
     }
 
     /// The flame field of a sample; 0 where none is stored.

@@ -175,6 +175,7 @@ fn hot_air_is_refused_before_it_is_allocated_and_its_flame_field_counts() {
             gas: GasFields {
                 burning,
                 hot_above_k,
+                bends_above_k: None,
             },
             interpolation: Interpolation::Tricubic,
         };
