@@ -312,7 +312,7 @@ impl Walk {
             let position: [f64; 3] = std::array::from_fn(|axis| {
                 packet.start[lane][axis] + middle * packet.delta[lane][axis]
             });
-            let [soot, temperature, burning] = lookup::<GAS>(march.medium, position);
+            let [soot, temperature, burning, _] = lookup::<GAS, false>(march.medium, position);
             taken.column[lane] = soot * (march.step_m * share);
             taken.inverse_temperature[lane] = 1.0 / temperature;
             if GAS {

@@ -16,6 +16,7 @@ use thiserror::Error;
 
 use crate::scene::{Scene, WavelengthSet};
 
+mod cells;
 mod chord;
 pub mod develop;
 pub mod fields;
@@ -30,6 +31,7 @@ pub mod pass;
 pub mod plan;
 pub mod probe;
 mod scatter;
+mod sweep;
 mod walk;
 pub mod white;
 

@@ -64,6 +64,7 @@ pub(crate) fn pack_for_tests(
             burning: maps.flame.as_ref().map(|_| packing::Burning::Field),
             hot_above_k: maps.flame.as_ref().map(|_| glow::VAPOUR_K[0]),
         },
+        smoke_apart: maps.smoke.is_some(),
         interpolation,
     };
     fields.pack(&glam::DAffine3::IDENTITY, &crate::volume::Limits::default())

@@ -63,6 +63,8 @@ pub(super) struct Fields<'a> {
     pub(super) ambient_k: f64,
     /// What of the gas must be there beside soot.
     pub(super) gas: GasFields,
+    /// Whether it must be known which part of the soot is smoke.
+    pub(super) smoke_apart: bool,
     /// How values between samples will be formed.
     pub(super) interpolation: Interpolation,
 }
@@ -138,6 +140,21 @@ impl Fields<'_> {
                 _ => read_flame(flame.as_ref(), first(brick), burning),
             });
 
+        let smoke = layout::absorber(self, &self.maps.smoke, self.amounts[1], reference)
+            .filter(|_| self.smoke_apart);
+        let mut of_smoke = vec![0.0; if smoke.is_some() { count } else { 0 }];
+        if let Some(smoke) = &smoke {
+            of_smoke
+                .par_chunks_exact_mut(BRICK_SAMPLES)
+                .zip(occupied)
+                .for_each(|(of_smoke, brick)| {
+                    let value = smoke.read(first(brick));
+                    for_each_sample(of_smoke, first(brick), |voxel, of_smoke| {
+                        *of_smoke = value(voxel) as f32;
+                    });
+                });
+        }
+
         let reach = match reference.border() {
             Border::Clamp => 0.5,
             Border::Background => f64::from(self.interpolation.reach()),
@@ -155,6 +172,7 @@ impl Fields<'_> {
             table: vec![NO_BRICK; bricks.as_u64vec3().element_product() as usize],
             samples,
             flame: burning,
+            smoke: of_smoke,
             voxel_size_m: world_from_lattice.matrix3.determinant().abs().cbrt(),
             interpolation: self.interpolation,
             ..empty()
@@ -207,8 +225,10 @@ impl Medium {
                 continue;
             }
             let own = i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES;
-            if !self.flame.is_empty() {
-                self.flame.copy_within(own.clone(), kept * BRICK_SAMPLES);
+            for beside in [&mut self.flame, &mut self.smoke] {
+                if !beside.is_empty() {
+                    beside.copy_within(own.clone(), kept * BRICK_SAMPLES);
+                }
             }
             self.samples.copy_within(own, kept * BRICK_SAMPLES);
             let index = self.brick_index(brick);
@@ -217,8 +237,10 @@ impl Medium {
         }
         self.samples.truncate(kept * BRICK_SAMPLES);
         self.samples.shrink_to_fit();
-        self.flame.truncate(kept * BRICK_SAMPLES);
-        self.flame.shrink_to_fit();
+        for beside in [&mut self.flame, &mut self.smoke] {
+            beside.truncate(kept * BRICK_SAMPLES);
+            beside.shrink_to_fit();
+        }
     }
 
     /// The flame field of a sample; 0 where none is stored.

@@ -40,14 +40,12 @@ impl<'a> Layout<'a> {
         let source = |map: &'a Option<FieldMap>, amount: f64| {
             Source::new(volume, map.as_ref(), reference, amount).filter(Source::has_data)
         };
-        let absorbers: Vec<Source<'a>> = [
-            (&maps.soot, fields.amounts[0]),
-            (&maps.smoke, fields.amounts[1]),
-        ]
-        .into_iter()
-        .filter(|&(_, amount)| amount > 0.0)
-        .filter_map(|(map, amount)| source(map, amount))
-        .collect();
+        let smoke = absorber(fields, &maps.smoke, fields.amounts[1], reference);
+        let smoke_apart = fields.smoke_apart && smoke.is_some();
+        let absorbers: Vec<Source<'a>> = absorber(fields, &maps.soot, fields.amounts[0], reference)
+            .into_iter()
+            .chain(smoke)
+            .collect();
         // What glows in the gas, and from which value of its field on.
         let burning = fields.gas.burning.and_then(|burning| match burning {
             Burning::Field => Some((source(&maps.flame, 1.0)?, 0.0)),
@@ -78,7 +76,8 @@ impl<'a> Layout<'a> {
             Interpolation::Nearest | Interpolation::Trilinear => 0,
         };
         let occupied = occupied_bricks(&shown, origin, bricks, beside);
-        let size = size_of::<Sample>() + fields.gas.burning.map_or(0, |_| size_of::<f32>());
+        let beside = usize::from(fields.gas.burning.is_some()) + usize::from(smoke_apart);
+        let size = size_of::<Sample>() + beside * size_of::<f32>();
         let bytes = (occupied.len() * BRICK_SAMPLES * size) as u64;
         if bytes > limits.max_bytes {
             return Err(PackingError::TooLarge {
@@ -96,6 +95,17 @@ impl<'a> Layout<'a> {
             occupied,
         }))
     }
+}
+
+/// Soot or smoke as it is packed, times its amount; `None` if there is none.
+pub(super) fn absorber<'a>(
+    fields: &Fields<'a>,
+    map: &'a Option<FieldMap>,
+    amount: f64,
+    reference: &Grid,
+) -> Option<Source<'a>> {
+    let source = Source::new(fields.volume, map.as_ref(), reference, amount);
+    source.filter(|source| amount > 0.0 && source.has_data())
 }
 
 /// The box of everything that may show, min inside, max outside.
