@@ -24,8 +24,8 @@ pub(super) type Chunk = [f32; WIDE];
 /// Numbers of a record before those of the colours: the volume fractions of soot and of smoke.
 const HEAD: usize = 2;
 
-/// Gauss's points along a cell's edge: two panels of two.
-const POINTS: usize = 4;
+/// Most panels of two Gauss's points along a cell's edge: one for each voxel of a small cell.
+const MOST_PANELS: usize = 2;
 
 /// Light dimmer than this, W m⁻³ sr⁻¹ nm⁻¹, is none: 1e-30 of a flame's, and no product of it is denormal.
 const DARK: f32 = 1e-30;
@@ -314,21 +314,22 @@ impl Kernel for Mean<'_> {
 
     #[inline(always)]
     fn run(mut self) -> bool {
-        let panel = 2.0 * self.edge / POINTS as f64;
+        let panels = (self.edge as usize).min(MOST_PANELS);
+        let (count, panel) = (2 * panels, self.edge / panels as f64);
         let reach = 0.5 * panel / 3.0_f64.sqrt();
-        let along = |corner: f64| -> [f64; POINTS] {
+        let along = |corner: f64| -> [f64; 2 * MOST_PANELS] {
             std::array::from_fn(|i| {
                 let side = if i % 2 == 0 { -reach } else { reach };
                 corner + panel * ((i / 2) as f64 + 0.5) + side
             })
         };
-        let weight = 1.0 / (POINTS * POINTS * POINTS) as f32;
+        let weight = 1.0 / (count * count * count) as f32;
         let domain = self.medium.domain;
         let [xs, ys, zs] = self.corner.to_array().map(along);
         let mut filled = false;
-        for z in zs {
-            for y in ys {
-                for x in xs {
+        for &z in &zs[..count] {
+            for &y in &ys[..count] {
+                for &x in &xs[..count] {
                     let position = DVec3::new(x, y, z);
                     if position.cmpge(domain.min).all() && position.cmple(domain.max).all() {
                         filled |= self.add([x, y, z], weight);

@@ -241,8 +241,24 @@ fn the_field_agrees_with_rays_in_all_directions_from_single_places() {
             panic!("two fields")
         };
         println!("g {asymmetry}: mean and rms {fine:.4?}, coarse {coarse:.4?}");
-        assert!(fine[0].abs() < 0.01 && fine[1] < 0.05, "{fine:?}");
-        assert!(coarse[0].abs() < 0.05 && coarse[1] < 0.2, "{coarse:?}");
+        // What single places are off by at 32 and 16 directions; a factor or a sign that is wrong shows tenfold.
+        assert!(fine[0].abs() < 0.02 && fine[1] < 0.06, "{fine:?}");
+        assert!(coarse[0].abs() < 0.08 && coarse[1] < 0.16, "{coarse:?}");
+    }
+}
+
+#[test]
+#[ignore = "a number for people: half a minute on two cores"]
+fn what_is_left_out_is_about_what_the_reference_adds() {
+    for radius_nm in [60.0, 80.0] {
+        let scene = scene(procedural::torch(), radius_nm, None);
+        let field = InScatter::new(&scene, &plan(&scene), Level::Fine, &Cancel::never()).unwrap();
+        let [once, all] = [1, u32::MAX].map(|bounces| compare(&scene, 8192, bounces).2);
+        println!(
+            "{radius_nm} nm: {:.5} added, {:.5} estimated",
+            all - once,
+            field.orders_left_out()
+        );
     }
 }
 
@@ -261,15 +277,14 @@ fn what_accuracy_costs() {
         let plan = plan(&scene);
         println!("{name}: {:?} voxels", scene.flame.medium().domain.size());
         let efforts = [
-            (8_000, 32),
-            (8_000, 64),
-            (30_000, 128),
-            (60_000, 128),
-            (250_000, 64),
-            (250_000, 128),
-            (250_000, 256),
-            (500_000, 128),
-            (2_000_000, 256),
+            (8_000, 16),
+            (30_000, 16),
+            (30_000, 32),
+            (250_000, 32),
+            (700_000, 16),
+            (700_000, 24),
+            (700_000, 32),
+            (700_000, 64),
         ];
         let mut fields = Vec::new();
         for (cells, directions) in efforts {
