@@ -14,6 +14,7 @@ use super::common;
 mod furnace;
 mod glow;
 mod null_collision;
+mod scattering;
 mod z_test;
 
 /// Edge of the test cubes, m.

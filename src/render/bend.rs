@@ -317,7 +317,8 @@ fn between([from, to]: [Knot; 2], arc_m: f64) -> DVec3 {
     let v = 1.0 - u;
     let line = v * from.at.origin + u * to.at.origin;
     let across = to.at.origin - from.at.origin;
-    let bow = v * (length_m * from.at.direction - across) - u * (length_m * to.at.direction - across);
+    let bow =
+        v * (length_m * from.at.direction - across) - u * (length_m * to.at.direction - across);
     line + u * v * bow
 }
 

@@ -98,8 +98,8 @@ impl<F: Fn(DVec3) -> Index> Path<F> {
             let step_m = self.step_m.min(limit_m);
             let (end, turn, error) = self.tried(step_m);
             // What is estimated is not what is kept: the third-order end is.
-            let excess = (error.origin.length() / position_m)
-                .max(error.direction.length() / direction_rad);
+            let excess =
+                (error.origin.length() / position_m).max(error.direction.length() / direction_rad);
             let factor = if excess > 0.0 {
                 (SAFETY / excess.cbrt()).clamp(SHRINK, GROW)
             } else {

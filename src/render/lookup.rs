@@ -4,13 +4,13 @@ use crate::scene::Interpolation;
 use crate::scene::interpolation::spline_fetches_f32;
 use crate::scene::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES};
 
-/// Soot volume fraction, temperature in K, the flame field, and the part of the soot that is smoke.
+/// Soot volume fraction, temperature in K, the flame field, and which part of the volume fraction is smoke.
 pub(super) type Found = [f32; 4];
 
 /// What is found where no brick is: clear air.
 const CLEAR: Found = [0.0, 300.0, 0.0, 0.0];
 
-/// The medium at a lattice position. The flame field is read only where `GAS` is.
+/// The medium at a lattice position. The flame field is read only where `GAS` is, the smoke only where `SCATTER` is.
 ///
 /// The position comes in f64: where the temperature changes by hundreds of kelvin in a voxel, the last bit of an
 /// f32 coordinate would show in Planck's exponential.
@@ -84,7 +84,8 @@ fn cell<const GAS: bool, const SCATTER: bool>(
     let near = between(pair(0, 0), pair(1, 0), fraction[1]);
     let far = between(pair(0, 1), pair(1, 1), fraction[1]);
     let [soot_low, hot_low, soot_high, hot_high] = between(near, far, fraction[2]);
-    let alone = |field: &[f32]| {
+    // A field of its own: two neighbours in x at a time.
+    let beside = |field: &[f32]| -> f32 {
         let pair = |dy: usize, dz: usize| -> [f32; 2] {
             let at = row(dy, dz);
             [field[at], field[at + 1]]
@@ -94,21 +95,15 @@ fn cell<const GAS: bool, const SCATTER: bool>(
         let [low, high] = between(near, far, fraction[2]);
         low + fraction[0] * (high - low)
     };
-    let flame = if GAS && !medium.flame.is_empty() {
-        alone(&medium.flame)
-    } else {
-        0.0
-    };
-    let smoke = if SCATTER && !medium.smoke.is_empty() {
-        alone(&medium.smoke)
-    } else {
-        0.0
-    };
+    let has = [
+        GAS && !medium.flame.is_empty(),
+        SCATTER && !medium.smoke.is_empty(),
+    ];
     [
         soot_low + fraction[0] * (soot_high - soot_low),
         hot_low + fraction[0] * (hot_high - hot_low),
-        flame,
-        smoke,
+        if has[0] { beside(&medium.flame) } else { 0.0 },
+        if has[1] { beside(&medium.smoke) } else { 0.0 },
     ]
 }
 
@@ -124,18 +119,17 @@ fn corner<const GAS: bool, const SCATTER: bool>(
     };
     let [dx, dy, dz] = upper.map(usize::from);
     let at = first + (dz * SAMPLES + dy) * SAMPLES + dx;
-    let flame = if GAS && !medium.flame.is_empty() {
-        medium.flame[at]
-    } else {
-        0.0
-    };
-    let smoke = if SCATTER && !medium.smoke.is_empty() {
-        medium.smoke[at]
-    } else {
-        0.0
-    };
+    let has = [
+        GAS && !medium.flame.is_empty(),
+        SCATTER && !medium.smoke.is_empty(),
+    ];
     let [soot, kelvin] = medium.samples[at];
-    [soot, kelvin, flame, smoke]
+    [
+        soot,
+        kelvin,
+        if has[0] { medium.flame[at] } else { 0.0 },
+        if has[1] { medium.smoke[at] } else { 0.0 },
+    ]
 }
 
 /// Where the lowest corner of a voxel's cell is stored, if it is.
@@ -185,27 +179,29 @@ mod tests {
         }
     }
 
-    /// Soot, kelvin and flame of a voxel of the file.
-    fn of_file(voxel: IVec3, seed: u32) -> [f32; 3] {
+    /// Soot with smoke, kelvin, flame and smoke of a voxel of the file.
+    fn of_file(voxel: IVec3, seed: u32) -> [f32; 4] {
         let hot = speckles(voxel, seed + 1);
+        let smoke = 1e-5 * speckles(voxel, seed + 3);
         [
-            1e-5 * speckles(voxel, seed),
+            1e-5 * speckles(voxel, seed) + smoke,
             if hot > 0.0 {
                 400.0 + 2000.0 * hot
             } else {
                 AROUND_K
             },
             speckles(voxel, seed + 2),
+            smoke,
         ]
     }
 
     /// The same of any voxel, with the file's border.
-    fn of_voxel(voxel: IVec3, seed: u32, border: Border) -> [f32; 3] {
+    fn of_voxel(voxel: IVec3, seed: u32, border: Border) -> [f32; 4] {
         let clamped = voxel.clamp(IVec3::ZERO, IVec3::splat(EDGE - 1));
         if border == Border::Clamp || clamped == voxel {
             of_file(clamped, seed)
         } else {
-            [0.0, AROUND_K, 0.0]
+            [0.0, AROUND_K, 0.0, 0.0]
         }
     }
 
@@ -214,14 +210,28 @@ mod tests {
             let (dims, value) = (IVec3::splat(EDGE), |voxel| of_file(voxel, seed)[c]);
             Grid::from_fn(name, dims, DAffine3::IDENTITY, border, around, value)
         };
+        // The file's own soot is what is not smoke.
+        let own = |voxel| {
+            let [all, .., smoke] = of_file(voxel, seed);
+            all - smoke
+        };
         let grids = vec![
-            grid("soot", 0, 0.0),
+            Grid::from_fn(
+                "soot",
+                IVec3::splat(EDGE),
+                DAffine3::IDENTITY,
+                border,
+                0.0,
+                own,
+            ),
+            grid("smoke", 3, 0.0),
             grid("temperature", 1, AROUND_K),
             grid("flame", 2, 0.0),
         ];
         let map = |name: &str, max: f64| Some(FieldMap::new(name, 1.0, 0.0, 0.0, max));
         let maps = FieldMaps {
             soot: map("soot", 1.0),
+            smoke: map("smoke", 1.0),
             temperature: map("temperature", 1e4),
             flame: map("flame", 1.0),
             ..FieldMaps::default()
@@ -260,6 +270,8 @@ mod tests {
             let medium = medium(seed, border, interpolation);
             let domain = medium.domain;
             let origin = medium.lattice_from_world.translation;
+            // The sum of soot and smoke is rounded twice.
+            let exact = [2e-7, 1e-12, 1e-12, 1e-12];
             let mut seen = 0;
             for i in 0..400_u32 {
                 let place = crate::math::random::philox([i, 0, 0, 0], [seed, 7]);
@@ -276,15 +288,15 @@ mod tests {
                 };
                 let position = position.clamp(domain.min, domain.max);
                 let voxel = position - origin;
-                let (base, mut whole) = (voxel.floor(), [0.0; 3]);
+                let (base, mut whole) = (voxel.floor(), [0.0; 4]);
                 let along = (voxel - base).to_array().map(|f| weights(interpolation, f));
-                let (mut low, mut high) = ([f64::INFINITY; 3], [0.0_f64; 3]);
+                let (mut low, mut high) = ([f64::INFINITY; 4], [0.0_f64; 4]);
                 for at in 0..64 {
                     let [x, y, z] = [at & 3, at >> 2 & 3, at >> 4];
                     let weight = along[0][x] * along[1][y] * along[2][z];
                     let step = IVec3::new(x as i32, y as i32, z as i32) - 1;
                     let values = of_voxel(base.as_ivec3() + step, seed, border).map(f64::from);
-                    for c in 0..3 {
+                    for c in 0..4 {
                         whole[c] += weight * values[c];
                         if weight > 0.0 {
                             (low[c], high[c]) = (low[c].min(values[c]), high[c].max(values[c]));
@@ -303,12 +315,12 @@ mod tests {
                     continue;
                 }
                 let [soot, kelvin] = medium.sample(position);
-                let double = [soot, kelvin, medium.flame(position)];
+                let double = [soot, kelvin, medium.flame(position), medium.smoke(position)];
                 let single = lookup::<true, true>(&medium, position.to_array());
-                for c in 0..3 {
+                for c in 0..4 {
                     let scale = high[c].max(1e-12);
                     let found = f64::from(single[c]);
-                    prop_assert!((double[c] - whole[c]).abs() <= 1e-12 * scale, "{c} at {voxel}: {double:?} {whole:?}");
+                    prop_assert!((double[c] - whole[c]).abs() <= exact[c] * scale, "{c} at {voxel}: {double:?} {whole:?}");
                     prop_assert!((found - whole[c]).abs() <= 2e-6 * scale, "{c} at {voxel}: {single:?} {whole:?}");
                     prop_assert!(found >= 0.0 && found <= high[c] * (1.0 + 1e-6), "{c}: {found} above {}", high[c]);
                     prop_assert!(found >= low[c] - 1e-6 * high[c], "{c}: {found} below {}", low[c]);

@@ -17,6 +17,7 @@ use thiserror::Error;
 use crate::scene::{Scene, WavelengthSet};
 
 mod bend;
+mod cells;
 mod chord;
 pub mod develop;
 mod eikonal;
@@ -34,8 +35,9 @@ pub mod pass;
 pub mod plan;
 pub mod probe;
 mod scatter;
-pub mod tables;
 mod shift;
+mod sweep;
+pub mod tables;
 mod walk;
 mod way;
 pub mod white;

@@ -127,6 +127,7 @@ impl FlameParams {
         let (amounts, common) = self.packed_amounts();
         let glow = self.shining_gas();
         let gas = self.gas_fields(&glow);
+        let scattering = self.scattering.filter(|_| self.has_soot());
         Effect {
             key: PackingKey {
                 maps: FieldMaps {
@@ -142,6 +143,7 @@ impl FlameParams {
                     None => self.air.temperature_k,
                 },
                 gas,
+                smoke_apart: scattering.is_some() && amounts[1] > 0.0,
                 interpolation: self.interpolation,
             },
             soot: self.fuel.soot_law(self.soot_model),
@@ -149,13 +151,10 @@ impl FlameParams {
                 * soot::volume_fraction_factor(self.soot_hold, self.soot_radius_nm),
             glow,
             // Without soot and smoke nothing scatters.
-            scattering: self
-                .scattering
-                .filter(|_| self.has_soot())
-                .map(|params| Scattering {
-                    params,
-                    radius_m: self.soot_radius_nm * METRES_PER_NM,
-                }),
+            scattering: scattering.map(|params| Scattering {
+                params,
+                radius_m: self.soot_radius_nm * METRES_PER_NM,
+            }),
             bending: self.bends().map(|bending| BentAir {
                 bending,
                 air: self.air,
@@ -218,6 +217,8 @@ struct PackingKey {
     amounts: [f64; 2],
     ambient_k: f64,
     gas: GasFields,
+    /// Whether it must be known which part of the soot is smoke.
+    smoke_apart: bool,
     interpolation: Interpolation,
 }
 
@@ -230,6 +231,7 @@ impl PackingKey {
             amounts: self.amounts,
             ambient_k: self.ambient_k,
             gas: self.gas,
+            smoke_apart: self.smoke_apart,
             interpolation: self.interpolation,
         }
     }
@@ -345,9 +347,15 @@ impl Flame {
     }
 
     /// Mean cosine of the scattering at a wavelength, −1 to 1 open.
-    pub fn asymmetry(&self, _lambda_nm: f64) -> f64 {
-        let params = self.effect.scattering.map(|it| it.params);
-        params.and_then(|params| params.asymmetry).unwrap_or(0.0)
+    ///
+    /// What was asked for, else that of the soot's spheres by Mie's series; 0 where nothing scatters. Smoke is taken to
+    /// scatter into the same directions.
+    pub fn asymmetry(&self, lambda_nm: f64) -> f64 {
+        let Some(Scattering { params, radius_m }) = self.effect.scattering else {
+            return 0.0;
+        };
+        let of_spheres = || self.effect.soot.asymmetry(lambda_nm, radius_m);
+        params.asymmetry.unwrap_or_else(of_spheres)
     }
 
     /// How this flame's gas bends light; `None` where that is not to be computed.

@@ -66,6 +66,7 @@ pub(crate) fn pack_for_tests(
             hot_above_k: maps.flame.as_ref().map(|_| glow::VAPOUR_K[0]),
             bends_above_k: None,
         },
+        smoke_apart: maps.smoke.is_some(),
         interpolation,
     };
     fields.pack(&glam::DAffine3::IDENTITY, &crate::volume::Limits::default())

@@ -63,6 +63,8 @@ pub(super) struct Fields<'a> {
     pub(super) ambient_k: f64,
     /// What of the gas must be there beside soot.
     pub(super) gas: GasFields,
+    /// Whether it must be known which part of the soot is smoke.
+    pub(super) smoke_apart: bool,
     /// How values between samples will be formed.
     pub(super) interpolation: Interpolation,
 }
@@ -141,6 +143,21 @@ impl Fields<'_> {
                 _ => read_flame(flame.as_ref(), first(brick), burning),
             });
 
+        let smoke = layout::absorber(self, &self.maps.smoke, self.amounts[1], reference)
+            .filter(|_| self.smoke_apart);
+        let mut of_smoke = vec![0.0; if smoke.is_some() { count } else { 0 }];
+        if let Some(smoke) = &smoke {
+            of_smoke
+                .par_chunks_exact_mut(BRICK_SAMPLES)
+                .zip(occupied)
+                .for_each(|(of_smoke, brick)| {
+                    let value = smoke.read(first(brick));
+                    for_each_sample(of_smoke, first(brick), |voxel, of_smoke| {
+                        *of_smoke = value(voxel) as f32;
+                    });
+                });
+        }
+
         let reach = match reference.border() {
             Border::Clamp => 0.5,
             Border::Background => f64::from(self.interpolation.reach()),
@@ -158,6 +175,7 @@ impl Fields<'_> {
             table: vec![NO_BRICK; bricks.as_u64vec3().element_product() as usize],
             samples,
             flame: burning,
+            smoke: of_smoke,
             voxel_size_m: world_from_lattice.matrix3.determinant().abs().cbrt(),
             interpolation: self.interpolation,
             ..empty()
@@ -172,7 +190,9 @@ impl Medium {
     /// with soot only in its far corner), and notes the peaks. A smooth interpolation reads from the neighbours of what
     /// shows, so it keeps them. Gas that only bends light is kept, and is no peak: nothing of it is seen.
     fn keep_what_shows(&mut self, packed: &[UVec3], gas: GasFields) {
-        let hot_above_k = gas.hot_above_k.map_or(f32::INFINITY, |kelvin| kelvin as f32);
+        let hot_above_k = gas
+            .hot_above_k
+            .map_or(f32::INFINITY, |kelvin| kelvin as f32);
         let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
         let parts: Vec<Option<Peaks>> = bricks
             .enumerate()
@@ -206,7 +226,10 @@ impl Medium {
         }
         if let Some(kelvin) = gas.bends_above_k {
             let bends = self.bending(packed, kelvin as f32);
-            shows.iter_mut().zip(bends).for_each(|(shows, bends)| *shows |= bends);
+            shows
+                .iter_mut()
+                .zip(bends)
+                .for_each(|(shows, bends)| *shows |= bends);
         }
         let mut kept = 0;
         for (i, &brick) in packed.iter().enumerate() {
@@ -214,8 +237,10 @@ impl Medium {
                 continue;
             }
             let own = i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES;
-            if !self.flame.is_empty() {
-                self.flame.copy_within(own.clone(), kept * BRICK_SAMPLES);
+            for beside in [&mut self.flame, &mut self.smoke] {
+                if !beside.is_empty() {
+                    beside.copy_within(own.clone(), kept * BRICK_SAMPLES);
+                }
             }
             self.samples.copy_within(own, kept * BRICK_SAMPLES);
             let index = self.brick_index(brick);
@@ -224,8 +249,10 @@ impl Medium {
         }
         self.samples.truncate(kept * BRICK_SAMPLES);
         self.samples.shrink_to_fit();
-        self.flame.truncate(kept * BRICK_SAMPLES);
-        self.flame.shrink_to_fit();
+        for beside in [&mut self.flame, &mut self.smoke] {
+            beside.truncate(kept * BRICK_SAMPLES);
+            beside.shrink_to_fit();
+        }
     }
 
     /// Which bricks bend light: those that hold gas hotter than this, and those at whose border the difference between

@@ -8,7 +8,7 @@ use crate::physics::phase::HenyeyGreenstein;
 pub struct Params {
     /// How the medium scatters.
     pub scattering: Scattering,
-    /// Into which directions it does.
+    /// Into which directions it does, at all wavelengths; [`Scattering::Flame`] has phases of its own.
     pub phase: HenyeyGreenstein,
     /// How often light may have been scattered before it reaches the eye. What is scattered once more is lost, so each
     /// order adds to the picture; 0 shows the flame dimmed by scattering as well as by absorption.
@@ -42,6 +42,9 @@ pub enum Scattering {
         /// Radius of a primary particle, nm.
         radius_nm: f64,
     },
+    /// As the flame itself says: soot and smoke each with its own coefficient, and at each wavelength with the phase
+    /// function of its own mean cosine. Nothing where its scattering is not to be computed.
+    Flame,
     /// This share (0 to 1) of what the soot would absorb is scattered instead: extinction stays. With 1 nothing is
     /// absorbed and nothing glows.
     Albedo(f64),

@@ -23,7 +23,6 @@ pub(super) struct Tracer<'a> {
     medium: &'a Medium,
     optics: Optics,
     bounds: Vec<Bounds>,
-    phase: HenyeyGreenstein,
     max_bounces: u32,
     /// Spectral radiance of the surroundings at each wavelength.
     environment: Vec<f64>,
@@ -47,7 +46,6 @@ impl<'a> Tracer<'a> {
         Self {
             medium: flame.medium(),
             bounds: bricks::bounds(flame.medium(), &optics),
-            phase: params.phase,
             max_bounces: if optics.scatters() {
                 params.max_bounces
             } else {
@@ -88,10 +86,13 @@ impl<'a> Tracer<'a> {
                 }
                 Flight::Scattered(distance) => {
                     bounces += 1;
+                    let phase = self.optics.phase(light.hero);
+                    let (direction, cosine) = turned(ray.direction, phase, random);
+                    light.weights.turn(&self.optics, light.hero, cosine);
                     light.weights.normalise();
                     ray = Ray {
                         origin: ray.at(distance),
-                        direction: turned(ray.direction, self.phase, random),
+                        direction,
                     };
                 }
             }
@@ -152,6 +153,7 @@ impl<'a> Tracer<'a> {
             soot,
             kelvin,
             flame: self.medium.flame(position),
+            smoke: self.medium.smoke(position),
         }
     }
 
@@ -253,6 +255,22 @@ impl Weights {
         self.share = self.density.len() as f64 / self.density.iter().sum::<f64>();
     }
 
+    /// A turn by an angle of this cosine, drawn from the phase function of the wavelength in charge: each wavelength's
+    /// value and density take their own phase function's value, over that one's.
+    fn turn(&mut self, optics: &Optics, hero: usize, cosine: f64) {
+        let drawn = optics.phase(hero);
+        for n in 0..self.value.len() {
+            let own = optics.phase(n);
+            // Where all are one, nothing is rounded.
+            if own != drawn {
+                let ratio = own.value(cosine) / drawn.value(cosine);
+                self.value[n] *= ratio;
+                self.density[n] *= ratio;
+            }
+        }
+        self.weigh();
+    }
+
     /// Takes out the common factor, so that long paths do not underflow.
     fn normalise(&mut self) {
         for number in self.value.iter_mut().chain(&mut self.density) {
@@ -281,13 +299,14 @@ impl Weights {
     }
 }
 
-/// A direction after scattering.
-fn turned(direction: DVec3, phase: HenyeyGreenstein, random: &mut Stream) -> DVec3 {
+/// A direction after scattering, and the cosine of the turn.
+fn turned(direction: DVec3, phase: HenyeyGreenstein, random: &mut Stream) -> (DVec3, f64) {
     let cosine = phase.sample_cosine(random.uniform());
     let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
     let (up, across) = (TAU * random.uniform()).sin_cos();
     let (u, v) = direction.any_orthonormal_pair();
-    (cosine * direction + sine * (across * u + up * v)).normalize()
+    let after = cosine * direction + sine * (across * u + up * v);
+    (after.normalize(), cosine)
 }
 
 #[cfg(test)]
@@ -304,7 +323,7 @@ mod tests {
             let count = 20_000;
             let mut mean = DVec3::ZERO;
             for _ in 0..count {
-                let after = turned(before, phase, &mut random);
+                let (after, _) = turned(before, phase, &mut random);
                 assert!((after.length() - 1.0).abs() < 1e-14);
                 mean += after / f64::from(count);
             }

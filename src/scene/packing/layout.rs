@@ -40,14 +40,12 @@ impl<'a> Layout<'a> {
         let source = |map: &'a Option<FieldMap>, amount: f64| {
             Source::new(volume, map.as_ref(), reference, amount).filter(Source::has_data)
         };
-        let absorbers: Vec<Source<'a>> = [
-            (&maps.soot, fields.amounts[0]),
-            (&maps.smoke, fields.amounts[1]),
-        ]
-        .into_iter()
-        .filter(|&(_, amount)| amount > 0.0)
-        .filter_map(|(map, amount)| source(map, amount))
-        .collect();
+        let smoke = absorber(fields, &maps.smoke, fields.amounts[1], reference);
+        let smoke_apart = fields.smoke_apart && smoke.is_some();
+        let absorbers: Vec<Source<'a>> = absorber(fields, &maps.soot, fields.amounts[0], reference)
+            .into_iter()
+            .chain(smoke)
+            .collect();
         // What glows in the gas, and from which value of its field on.
         let burning = fields.gas.burning.and_then(|burning| match burning {
             Burning::Field => Some((source(&maps.flame, 1.0)?, 0.0)),
@@ -63,7 +61,11 @@ impl<'a> Layout<'a> {
             .and_then(|kelvin| Some((source(&maps.temperature, 1.0)?, kelvin)));
         let gases: Vec<(Source<'a>, f64)> = burning.into_iter().chain(hot).collect();
 
-        let seen = |(source, above)| Shown { source, above, margin: 0 };
+        let seen = |(source, above)| Shown {
+            source,
+            above,
+            margin: 0,
+        };
         let absorbing = absorbers.iter().map(|source| seen((source, 0.0)));
         let shining = gases.iter().map(|(source, above)| seen((source, *above)));
         // Where light is bent the difference between neighbours counts, a voxel further.
@@ -87,7 +89,8 @@ impl<'a> Layout<'a> {
             Interpolation::Nearest | Interpolation::Trilinear => 0,
         };
         let occupied = occupied_bricks(&shown, origin, bricks, beside);
-        let size = size_of::<Sample>() + fields.gas.burning.map_or(0, |_| size_of::<f32>());
+        let beside = usize::from(fields.gas.burning.is_some()) + usize::from(smoke_apart);
+        let size = size_of::<Sample>() + beside * size_of::<f32>();
         let bytes = (occupied.len() * BRICK_SAMPLES * size) as u64;
         if bytes > limits.max_bytes {
             return Err(PackingError::TooLarge {
@@ -114,6 +117,17 @@ struct Shown<'a> {
     margin: i32,
 }
 
+/// Soot or smoke as it is packed, times its amount; `None` if there is none.
+pub(super) fn absorber<'a>(
+    fields: &Fields<'a>,
+    map: &'a Option<FieldMap>,
+    amount: f64,
+    reference: &Grid,
+) -> Option<Source<'a>> {
+    let source = Source::new(fields.volume, map.as_ref(), reference, amount);
+    source.filter(|source| amount > 0.0 && source.has_data())
+}
+
 /// The box of everything that may show, min inside, max outside.
 fn hull(shown: &[Shown<'_>], limits: &Limits) -> Result<[IVec3; 2], PackingError> {
     // In f64, where grids that lie far apart do not overflow.
@@ -134,17 +148,17 @@ fn hull(shown: &[Shown<'_>], limits: &Limits) -> Result<[IVec3; 2], PackingError
 }
 
 /// Bricks that anything may reach with a sample, and those up to `beside` bricks off, in the order of the table.
-fn occupied_bricks(
-    shown: &[Shown<'_>],
-    origin: IVec3,
-    bricks: UVec3,
-    beside: i32,
-) -> Vec<UVec3> {
+fn occupied_bricks(shown: &[Shown<'_>], origin: IVec3, bricks: UVec3, beside: i32) -> Vec<UVec3> {
     let count = bricks.as_u64vec3().element_product() as usize;
     let mut marks = vec![false; count];
     let edge = IVec3::splat(BRICK as i32);
     let (width, height) = (bricks.x as usize, bricks.y as usize);
-    for &Shown { source, above, margin } in shown {
+    for &Shown {
+        source,
+        above,
+        margin,
+    } in shown
+    {
         source.for_each_above(above, |voxels| {
             // A brick at 8b holds samples 8b to 8b + 8, so a voxel on a border is in two of them.
             let min = voxels.min.as_ivec3() - margin;
