@@ -45,3 +45,73 @@ pub(super) fn irradiance_per_power(height: f64, distance: f64, radius_m: f64) ->
     let sum = mean_height / (reach * reach.sqrt());
     0.5 * (net + sum).max(0.0) / (radius_m * radius_m)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// E R²/J of a ball of radius 1 by a sum over directions of chord times cosine.
+    fn by_chords(height: f64, distance: f64) -> f64 {
+        const RINGS: u32 = 300;
+        let aside = (distance * distance - height * height).max(0.0).sqrt();
+        let mut sum = 0.0;
+        for ring in 0..RINGS {
+            let sine2 = (f64::from(ring) + 0.5) / f64::from(RINGS);
+            for step in 0..2 * RINGS {
+                let turn = std::f64::consts::TAU * (f64::from(step) + 0.5) / f64::from(2 * RINGS);
+                // Along the ray, the middle of the chord and half of it.
+                let middle = sine2.sqrt() * turn.cos() * aside + (1.0 - sine2).sqrt() * height;
+                let half2 = 1.0 - distance * distance + middle * middle;
+                if half2 > 0.0 {
+                    let half = half2.sqrt();
+                    sum += ((middle + half).max(0.0) - (middle - half).max(0.0))
+                        / f64::from(2 * RINGS * RINGS);
+                }
+            }
+        }
+        // j π ⟨chord⟩ with J = 4π/3 j.
+        0.75 * sum
+    }
+
+    #[test]
+    fn it_is_the_sum_over_the_chords() {
+        let mut worst = 0.0_f64;
+        for (height, distance) in [
+            (3.0, 3.0),
+            (1.0, 2.5),
+            (1.2, 1.3),
+            (0.0, 0.0),
+            (0.0, 0.5),
+            (0.3, 0.3),
+            (-0.3, 0.3),
+            (0.5, 0.8),
+            (-0.5, 0.8),
+            (0.8, 0.8),
+            (1.0, 1.0),
+            (0.0, 1.0),
+            (0.4, 1.2),
+            (-0.4, 1.2),
+            (0.0, 2.0),
+            (0.5, 3.0),
+            (-0.5, 3.0),
+            (-1.0, 2.0),
+        ] {
+            let (ours, chords) = (
+                irradiance_per_power(2.0 * height, 2.0 * distance, 2.0) * 4.0,
+                by_chords(height, distance),
+            );
+            println!("{height} {distance}: {ours:.4} {chords:.4}");
+            worst = worst.max((ours - chords).abs());
+        }
+        println!("worst: {worst:.3}");
+        assert!(worst < 0.08, "{worst}");
+    }
+
+    #[test]
+    fn it_has_no_steps() {
+        for (height, distance) in [(1.0, 1.0), (1.0, 2.0), (-1.0, 1.5), (0.2, 1.0)] {
+            let near = |by: f64| irradiance_per_power(height + by, distance + by.abs(), 1.0);
+            assert!((near(1e-7) - near(-1e-7)).abs() < 1e-5);
+        }
+    }
+}

@@ -239,7 +239,8 @@ impl Follow<'_> {
                 let position = ray.at((step + 0.5) * edge);
                 step += 1.0;
                 let cell = self.cells.cell_at(stretch.slot, position);
-                let added = self.cells.dense[cell].map(|dense| dense * step_m as f32);
+                let dense = self.cells.dense[cell];
+                let added = dense.map(|dense| dense * step_m as f32);
                 let table = self.tree.table_of_cell[cell];
                 if table != u32::MAX {
                     for block in 0..blocks {

@@ -30,7 +30,8 @@
 //! ```
 //!
 //! whose first part is what gets out, and only the second needs τ₁ and τ₂ of this point: those are taken along the line
-//! through the cells near the point and the means of whole bricks farther off.
+//! through the cells near the point and the means of whole bricks farther off. Nodes so near that they are parts of a
+//! brick take τ₁ straight away.
 //!
 //! **Validity.** Single scattering out of the beam counts as loss. What surfaces reflect falls on no other surface.
 
@@ -65,7 +66,7 @@ const MOST_BLOCKS: usize = (MAX_NODES + MAX_FEATURES).div_ceil(BLOCK);
 const MOST_OPEN: usize = 7 * 22 + 1;
 
 /// How large a node's ball may look to be one light: radius over distance.
-const OPENING: f64 = 0.15;
+const OPENING: f64 = 0.3;
 
 /// How finely the fire is cut and from how many directions it is seen, for each [`Level`].
 #[derive(Debug, Clone, Copy)]
@@ -100,8 +101,8 @@ impl Effort {
                     points: 16,
                 },
                 points: 16_000_000,
-                squares: 16,
-                steps: 40_000_000,
+                squares: 24,
+                steps: 60_000_000,
                 table_blocks: 2_000_000,
             },
         }
@@ -204,6 +205,10 @@ impl FireLight {
                     strength,
                     outwards: if distance > 0.0 { -to_light } else { normal },
                 };
+                if (index as usize) < self.tree.first_table {
+                    self.add_from_beside(&light, point, sums);
+                    continue;
+                }
                 self.add_what_gets_out(&light, sums);
                 if inside {
                     self.add_what_would_not(&light, point, sums);
@@ -212,6 +217,18 @@ impl FireLight {
         }
         for (found, sum) in found.iter_mut().zip(sums.as_flattened()) {
             *found = *sum;
+        }
+    }
+
+    /// Adds the light of a node that is so near that it is a part of a table's.
+    fn add_from_beside(&self, light: &Light<'_>, point: DVec3, sums: &mut [Block]) {
+        let between = self.columns.between(point, light.node.spot.centre);
+        for (block, (sum, power)) in sums.iter_mut().zip(light.power).enumerate() {
+            let [all, smoke] = &self.channels.extinction[block];
+            for k in 0..BLOCK {
+                let arrives = lanes::exp(-(all[k] * between[0] + smoke[k] * between[1]));
+                sum[k] += light.strength * power[k] * self.alone[block][k] * arrives;
+            }
         }
     }
 

@@ -38,6 +38,10 @@ pub(super) struct Tree {
     pub(super) table_of_cell: Vec<u32>,
 }
 
+/// Share of all light that the dimmest cells may give and are left out: a thousandth of what an eye tells apart is less,
+/// and in most fires half of the cells are that dim.
+const DIM: f64 = 1e-4;
+
 /// A ball's mean square distance from its middle is 3/5 of its radius squared.
 const RADIUS2_OF_SPREAD: f64 = 5.0 / 3.0;
 
@@ -45,8 +49,9 @@ impl Tree {
     /// Gathers cells; on the lowest level with tables there are at most `most_tables` and none is smaller than a brick.
     pub(super) fn new(cells: &Cells, blocks: usize, most_tables: usize) -> Self {
         let n = cells.per_edge;
+        let dimmest = dimmest_that_counts(cells);
         let mut leaves: Vec<(u64, usize)> = (0..cells.spots.len())
-            .filter(|&cell| cells.spots[cell].weight > 0.0)
+            .filter(|&cell| cells.spots[cell].weight > dimmest)
             .map(|cell| {
                 let local = cell % (n * n * n);
                 let at = UVec3::new(
@@ -170,6 +175,19 @@ impl Tree {
     pub(super) fn root(&self) -> Option<u32> {
         self.nodes.len().checked_sub(1).map(|root| root as u32)
     }
+}
+
+/// The weight above which cells are gathered: those below give [`DIM`] of all light together.
+fn dimmest_that_counts(cells: &Cells) -> f64 {
+    let mut weights: Vec<f64> = cells.spots.iter().map(|spot| spot.weight).collect();
+    weights.sort_unstable_by(f64::total_cmp);
+    let left_out = DIM * weights.iter().sum::<f64>();
+    let mut sum = 0.0;
+    let below = weights.iter().take_while(|&&weight| {
+        sum += weight;
+        sum <= left_out
+    });
+    below.last().copied().unwrap_or(0.0)
 }
 
 /// Several spots as one.

@@ -49,14 +49,16 @@ fn lit_surfaces_agree_with_the_reference() {
     };
     let reference = NullCollision::new(&scene, &plan.wavelengths, &Params::default());
     let estimates = reference.render(SIZE, SAMPLES, 1).unwrap();
-    let (mut worst, mut sums) = (0.0_f64, [0.0; 3]);
+    let (mut worst, mut compared, mut sums) = (0.0_f64, 0, [0.0; 3]);
     for (i, estimate) in (0..).zip(&estimates) {
         let ours = expected(i % SIZE[0], i / SIZE[0]);
-        // Black in both: the far side of the sphere.
-        if ours[1] <= 0.0 && estimate.mean[1] <= 0.0 {
-            continue;
+        // Where few paths find light, the noise of a single pixel is not known.
+        let found = estimate.mean[1].powi(2) > 36.0 * estimate.variance_of_mean[1];
+        if found {
+            let z = (estimate.mean[1] - ours[1]).abs() / estimate.variance_of_mean[1].sqrt();
+            worst = worst.max(z);
+            compared += 1;
         }
-        worst = worst.max((estimate.mean[1] - ours[1]).abs() / estimate.variance_of_mean[1].sqrt());
         sums[0] += estimate.mean[1];
         sums[1] += ours[1];
         sums[2] += estimate.variance_of_mean[1];
@@ -64,12 +66,12 @@ fn lit_surfaces_agree_with_the_reference() {
     let [mean, ours, variance] = sums;
     let together = (mean - ours) / variance.sqrt();
     println!(
-        "worst z {worst:.2}, together z {together:.2}: {:.2} % off, noise {:.2} %",
+        "worst z of {compared} {worst:.2}, together z {together:.2}: {:.2} % off, noise {:.2} %",
         100.0 * (ours / mean - 1.0),
         100.0 * variance.sqrt() / mean
     );
     // Of 576 normal numbers the largest is below 4.9 with a probability of 0.999; single paths are skew.
-    assert!(worst < 5.5, "{worst}");
+    assert!(compared > 150 && worst < 5.5, "{compared} {worst}");
     assert!(together.abs() < 3.3, "{together}");
 
     // With no reflection surfaces are black.
