@@ -65,9 +65,6 @@ const MOST_BLOCKS: usize = (MAX_NODES + MAX_FEATURES).div_ceil(BLOCK);
 /// Most nodes that wait to be looked at: seven on each of the 22 levels that a 64 bit key has, and one.
 const MOST_OPEN: usize = 7 * 22 + 1;
 
-/// How large a node's ball may look to be one light: radius over distance.
-const OPENING: f64 = 0.3;
-
 /// How finely the fire is cut and from how many directions it is seen, for each [`Level`].
 #[derive(Debug, Clone, Copy)]
 struct Effort {
@@ -78,6 +75,8 @@ struct Effort {
     squares: usize,
     /// Most steps of all lines of all directions.
     steps: usize,
+    /// How large a node's ball may look to be one light: radius over distance.
+    opening: f64,
     /// Most blocks of channels that all tables of the lowest level hold; 32 bytes each.
     table_blocks: usize,
 }
@@ -93,6 +92,7 @@ impl Effort {
                 points: 200_000,
                 squares: 8,
                 steps: 1_000_000,
+                opening: 0.4,
                 table_blocks: 200_000,
             },
             Level::Fine => Self {
@@ -103,6 +103,7 @@ impl Effort {
                 points: 16_000_000,
                 squares: 24,
                 steps: 60_000_000,
+                opening: 0.3,
                 table_blocks: 2_000_000,
             },
         }
@@ -127,6 +128,7 @@ impl Effort {
 /// The fire's light, gathered so that any point of a surface can ask for it.
 #[derive(Debug)]
 pub(super) struct FireLight {
+    opening: f64,
     channels: Channels,
     tree: Tree,
     escape: Escape,
@@ -138,8 +140,11 @@ pub(super) struct FireLight {
 impl FireLight {
     /// Works it out for the plan's nodes and features in the calling thread's rayon pool; `None` if cancelled.
     pub(super) fn new(scene: &Scene, plan: &Plan, level: Level, cancel: &Cancel) -> Option<Self> {
+        Self::with(scene, plan, &Effort::of(level), cancel)
+    }
+
+    fn with(scene: &Scene, plan: &Plan, effort: &Effort, cancel: &Cancel) -> Option<Self> {
         let medium: &Medium = scene.flame.medium();
-        let effort = Effort::of(level);
         let directions = Directions::new(effort.squares);
         let bricks = medium.samples.len() / BRICK_SAMPLES;
         let channels = Channels::new(scene, plan);
@@ -154,6 +159,7 @@ impl FireLight {
             alone[thermal.channel / BLOCK][thermal.channel % BLOCK] = *share;
         }
         Some(Self {
+            opening: effort.opening,
             alone,
             channels,
             tree,
@@ -185,7 +191,7 @@ impl FireLight {
             }
             let distance = to_light.length();
             let [first, children] = node.children;
-            if children > 0 && node.radius_m > OPENING * distance {
+            if children > 0 && node.radius_m > self.opening * distance {
                 for child in first..first + children {
                     open[count] = child;
                     count += 1;

@@ -59,3 +59,47 @@ fn it_is_what_the_march_sees_from_the_same_point() {
         }
     }
 }
+
+#[test]
+#[ignore = "experiment"]
+fn experiment() {
+    let mut scenes = vec![("torch", torch(), DVec3::new(0.0, 0.0, 0.2), 0.5)];
+    if let Some(scene) = shared("pool/pool_0022_zip_half.vdb") {
+        let medium = scene.flame.medium();
+        let world = medium.lattice_from_world.inverse();
+        let centre = world.transform_point3(medium.domain.centre());
+        let size = medium.domain.size().max_element() * medium.voxel_size_m();
+        scenes.push(("pool", scene, centre, size));
+    }
+    for (name, scene, centre, size) in scenes {
+        let plan = plan(&scene);
+        let places = [
+            (DVec3::new(0.3, 0.2, 0.93), 1.0),
+            (DVec3::new(0.3, 0.2, 0.93), 30.0),
+            (DVec3::new(0.48, -0.8, 0.36), 30.0),
+            (DVec3::new(0.7, -0.3, -0.4), 0.6),
+        ];
+        let place = |(direction, distance): (DVec3, f64)| {
+            let direction = direction.normalize();
+            let fov = 2.0 * (if distance > 2.0 { 0.9 / distance } else { 1.8 / distance }).atan().to_degrees();
+            ([centre + distance * size * direction, -direction], fov)
+        };
+        let marched: Vec<_> = places.iter().map(|&p| marched_irradiance(&scene, &plan, place(p).0, place(p).1)).collect();
+        let fine = Effort::of(Level::Fine);
+        for (what, effort) in [
+            ("fine", fine),
+            ("opening 0.1", Effort { opening: 0.1, ..fine }),
+            ("squares 48", Effort { squares: 48, steps: usize::MAX, table_blocks: 100_000_000, ..fine }),
+            ("squares 48 opening 0.1", Effort { opening: 0.1, squares: 48, steps: usize::MAX, table_blocks: 100_000_000, ..fine }),
+            ("cells 8", Effort { finest: Fineness { cells: 8, points: 16 }, steps: usize::MAX, ..fine }),
+        ] {
+            let start = std::time::Instant::now();
+            let light = FireLight::with(&scene, &plan, &effort, &Cancel::never()).unwrap();
+            let took = start.elapsed();
+            for (p, marched) in places.iter().zip(&marched) {
+                let ours = irradiance(&light, &plan, &Stage::default(), place(*p).0);
+                println!("{name} {what} {took:?} {} tables: {:.4?}", light.tree.tables, ours.iter().zip(marched).map(|(a, b)| a / b - 1.0).collect::<Vec<_>>());
+            }
+        }
+    }
+}

