@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::chord::Runs;
+use super::chord::{Chord, Runs};
 use super::eikonal::{Index, Path, Tolerance};
 use super::walk::for_each_stretch;
 use crate::math::Ray;
@@ -44,7 +44,7 @@ pub(super) struct Surroundings<'a> {
 /// A ray's way.
 pub(super) struct Bent {
     /// Its part inside the domain; `None` if it meets no stored brick.
-    pub(super) chord: Option<BentChord>,
+    pub(super) chord: Option<Chord>,
     /// How it goes on in the world behind the domain: its origin is where it comes out, or ends on a surface. The ray
     /// itself where it misses the domain or meets a surface before.
     pub(super) exit: Ray,
@@ -53,24 +53,12 @@ pub(super) struct Bent {
     pub(super) hit: Option<Hit>,
 }
 
-/// The part of a path inside the domain, cut into steps.
-pub(super) struct BentChord {
-    /// Lattice positions of the middles of all steps.
-    pub(super) positions: Vec<[f64; 3]>,
-    /// Index of the last step.
-    pub(super) last: u32,
-    /// Length of the last step as a share of a whole one, so that the steps end where the path does.
-    pub(super) last_share: f32,
-    /// The steps whose middle lies in a stored brick.
-    pub(super) runs: Runs,
-}
-
 /// Follows a ray of the world, whose direction is a unit vector, and cuts it into steps of `step_m` metres, above 0. A
 /// step longer than the path is the path.
 pub(super) fn bend(around: Surroundings<'_>, ray: &Ray, step_m: f64) -> Bent {
     let way = follow(around, ray);
     Bent {
-        chord: BentChord::new(around.medium, &way.knots, step_m),
+        chord: cut(around.medium, &way.knots, step_m),
         exit: way.exit,
         hit: way.hit,
     }
@@ -268,42 +256,42 @@ fn first_stored(medium: &Medium, local: &Ray, out_m: f64) -> Option<f64> {
     first
 }
 
-impl BentChord {
-    /// Cuts a path into steps; `None` if it meets no stored brick.
-    fn new(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Self> {
-        let length_m = knots.last()?.arc_m;
-        // A path that is whole steps long up to rounding has no extra sliver of a step.
-        let steps = (length_m / step_m - 1e-9).ceil().max(1.0);
-        let last_share = (length_m - (steps - 1.0) * step_m) / step_m;
-        let last = (steps - 1.0) as u32;
-        let mut runs = Runs::new();
-        let mut segments = knots.windows(2);
-        let mut segment = segments.next()?;
-        let mut positions = Vec::with_capacity(last as usize + 1);
-        for step in 0..=last {
-            let share = if step == last { last_share } else { 1.0 };
-            let middle_m = (f64::from(step) + 0.5 * share) * step_m;
-            while middle_m > segment[1].arc_m {
-                let Some(next) = segments.next() else { break };
-                segment = next;
-            }
-            let point = between([segment[0], segment[1]], middle_m);
-            let position = medium.lattice_from_world.transform_point3(point).to_array();
-            if stored(medium, position.map(|p| p as i32)).is_some() {
-                match runs.last_mut() {
-                    Some(run) if run[1] == step => run[1] = step + 1,
-                    _ => runs.push([step, step + 1]),
-                }
-            }
-            positions.push(position);
+/// Cuts a path into steps; `None` if it meets no stored brick.
+fn cut(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Chord> {
+    let length_m = knots.last()?.arc_m;
+    // A path that is whole steps long up to rounding has no extra sliver of a step.
+    let steps = (length_m / step_m - 1e-9).ceil().max(1.0);
+    let last_share = (length_m - (steps - 1.0) * step_m) / step_m;
+    let last = (steps - 1.0) as u32;
+    let mut runs = Runs::new();
+    let mut segments = knots.windows(2);
+    let mut segment = segments.next()?;
+    let mut middles = Vec::with_capacity(last as usize + 1);
+    for step in 0..=last {
+        let share = if step == last { last_share } else { 1.0 };
+        let middle_m = (f64::from(step) + 0.5 * share) * step_m;
+        while middle_m > segment[1].arc_m {
+            let Some(next) = segments.next() else { break };
+            segment = next;
         }
-        (!runs.is_empty()).then_some(Self {
-            positions,
-            last,
-            last_share: last_share as f32,
-            runs,
-        })
+        let point = between([segment[0], segment[1]], middle_m);
+        let position = medium.lattice_from_world.transform_point3(point).to_array();
+        if stored(medium, position.map(|p| p as i32)).is_some() {
+            match runs.last_mut() {
+                Some(run) if run[1] == step => run[1] = step + 1,
+                _ => runs.push([step, step + 1]),
+            }
+        }
+        middles.push(position);
     }
+    (!runs.is_empty()).then(|| Chord {
+        start: middles[0],
+        delta: [0.0; 3],
+        last,
+        last_share: last_share as f32,
+        runs,
+        middles,
+    })
 }
 
 /// The point of a segment at a length of the path: the cubic with the ends' places and directions (Hermite). On a straight

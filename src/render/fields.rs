@@ -7,9 +7,10 @@ use super::Cancel;
 use super::irradiance::FireLight;
 use super::level::Level;
 use super::scatter::InScatter;
+use super::shift::largest_shift_px;
 use super::tables::Tables;
 use crate::scene::Scene;
-use crate::scene::refractivity::Refractivity;
+use crate::scene::refractivity::{PATHS_NM, Refractivity};
 
 /// Which fields a scene calls for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -74,11 +75,18 @@ impl Fields {
 impl Bent {
     /// The gas of a scene that bends light, seen in a picture of `size` pixels; `None` where none does.
     pub(super) fn new(scene: &Scene, size: [u32; 2], dispersion: bool) -> Option<Self> {
-        let _ = (size, dispersion);
+        let [x_nm, y_nm, z_nm] = PATHS_NM;
+        let at = |nm| Refractivity::new(&scene.flame, nm);
+        let main = at(y_nm)?;
+        let others = if dispersion {
+            Some([at(x_nm)?, at(z_nm)?])
+        } else {
+            None
+        };
         Some(Self {
-            main: Refractivity::new(&scene.flame, 555.0)?,
-            others: None,
-            largest_shift_px: 0.0,
+            largest_shift_px: largest_shift_px(scene, &main, size).ok()?,
+            main,
+            others,
         })
     }
 }

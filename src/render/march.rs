@@ -18,7 +18,7 @@
 //!
 //! How sixteen rays go side by side is in `kernel`, where they go in `way`.
 
-use crate::colour::reflectance;
+use crate::colour::reflectance::Reflectance;
 use crate::math::lanes::{LANES, Lanes};
 use crate::scene::Scene;
 use crate::scene::camera::{CameraError, View};
@@ -161,9 +161,9 @@ impl<'a> Marcher<'a> {
         }
         let (at_nodes, of_features) = falls.split_at(tables.nodes.len());
         // A matt surface sends what falls on it evenly into the half space: L = ρ E/π.
-        let sent = |falls: f32, nm: f64| {
-            reflectance::at(hit.colour, nm) * f64::from(falls) / std::f64::consts::PI
-        };
+        let reflectance = Reflectance::of(hit.colour);
+        let sent =
+            |falls: f32, nm: f64| reflectance.at(nm) * f64::from(falls) / std::f64::consts::PI;
         let nodes = tables.nodes.iter().zip(&tables.wavelengths.nodes_nm);
         let radiance = nodes.zip(at_nodes).map(|((node, &nm), &falls)| {
             let [all, more] = node.extinction().map(f64::from);

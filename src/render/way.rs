@@ -1,5 +1,6 @@
 //! A ray's way: through the fire, and to what it meets behind.
 
+use super::bend::{Surroundings, bend, follow};
 use super::chord::Chord;
 use super::fields::Bent;
 use crate::math::Ray;
@@ -55,7 +56,29 @@ impl Ways<'_> {
         }
     }
 
-    fn bent(&self, ray: &Ray, _bent: &Bent) -> Way {
-        self.straight(ray)
+    fn bent(&self, ray: &Ray, bent: &Bent) -> Way {
+        let around = |gas| Surroundings {
+            medium: self.medium,
+            gas,
+            stage: self.stage,
+        };
+        let main = bend(around(&bent.main), ray, self.step_m);
+        let end = match (main.hit, &self.screen) {
+            (Some(hit), _) => End::Surface(hit),
+            (None, Some(screen)) => End::Screen(match &bent.others {
+                None => screen.xyz(&main.exit),
+                // What lies behind is seen in X, Y and Z each along a path of its own.
+                Some([for_x, for_z]) => {
+                    let seen = |gas, c: usize| screen.xyz(&follow(around(gas), ray).exit)[c];
+                    let y = screen.xyz(&main.exit)[1];
+                    [seen(for_x, 0), y, seen(for_z, 2)]
+                }
+            }),
+            (None, None) => End::Dark,
+        };
+        Way {
+            chord: main.chord,
+            end,
+        }
     }
 }

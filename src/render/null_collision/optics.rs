@@ -160,6 +160,11 @@ impl Optics {
         xyz
     }
 
+    /// A wavelength, nm.
+    pub(super) fn lambda_nm(&self, node: usize) -> f64 {
+        self.nodes[node].lambda_nm
+    }
+
     /// How many wavelengths there are.
     pub(super) fn len(&self) -> usize {
         self.nodes.len()

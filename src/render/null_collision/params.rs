@@ -13,6 +13,9 @@ pub struct Params {
     /// How often light may have been scattered before it reaches the eye. What is scattered once more is lost, so each
     /// order adds to the picture; 0 shows the flame dimmed by scattering as well as by absorption.
     pub max_bounces: u32,
+    /// How often light may have been reflected by the surfaces of the stage. 1 shows them in the fire's own light; with 0
+    /// they are black, and so is what would be reflected once more.
+    pub max_reflections: u32,
     /// What shines from all sides.
     pub environment: Environment,
     /// Collisions that each flight spends where the medium glows, beyond those that extinction asks for: more make a
@@ -26,6 +29,7 @@ impl Default for Params {
             scattering: Scattering::Off,
             phase: HenyeyGreenstein::ISOTROPIC,
             max_bounces: u32::MAX,
+            max_reflections: 1,
             environment: Environment::Dark,
             emission_points: 16.0,
         }

@@ -4,16 +4,18 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use crate::colour::reflectance::Reflectance;
 use crate::math::Ray;
 use crate::math::random::Stream;
 use crate::physics::phase::HenyeyGreenstein;
 use crate::render::walk::Stretch;
-use crate::scene::{Flame, Medium};
+use crate::scene::{Medium, Scene};
 use crate::spectral::Wavelengths;
 
 use super::bricks::{self, Bounds};
 use super::optics::{Local, Optics, Place};
 use super::params::Params;
+use super::surfaces::{self, Surfaces};
 
 /// A path whose heaviest weight is below this plays roulette for going on.
 const ROULETTE: f64 = 1e-3;
@@ -27,6 +29,7 @@ pub(super) struct Tracer<'a> {
     /// Spectral radiance of the surroundings at each wavelength.
     environment: Vec<f64>,
     emission_points: f64,
+    surfaces: Surfaces<'a>,
 }
 
 /// How a flight between two scatterings ends.
@@ -40,7 +43,8 @@ enum Flight {
 }
 
 impl<'a> Tracer<'a> {
-    pub(super) fn new(flame: &'a Flame, wavelengths: &Wavelengths, params: &Params) -> Self {
+    pub(super) fn new(scene: &'a Scene, wavelengths: &Wavelengths, params: &Params) -> Self {
+        let flame = &scene.flame;
         let optics = Optics::new(flame, wavelengths, params);
         let shine = |&nm: &f64| params.environment.radiance(nm);
         Self {
@@ -53,6 +57,7 @@ impl<'a> Tracer<'a> {
             },
             environment: wavelengths.nodes_nm.iter().map(shine).collect(),
             emission_points: params.emission_points.max(0.0),
+            surfaces: Surfaces::new(&scene.stage, params.max_reflections),
             optics,
         }
     }
@@ -73,11 +78,26 @@ impl<'a> Tracer<'a> {
         };
         let mut ray = *ray;
         let mut bounces = 0;
+        let mut reflections = 0;
         loop {
             let may_scatter = bounces < self.max_bounces;
-            match self.fly(&ray, may_scatter, &mut light, random, stretches) {
+            let wall = self.surfaces.hit(&ray);
+            let limit = wall.map_or(f64::INFINITY, |wall| wall.distance_m);
+            match self.fly(&ray, limit, may_scatter, &mut light, random, stretches) {
                 Flight::Ended => return,
                 Flight::Escaped => {
+                    if let Some(wall) = wall {
+                        if !self.surfaces.may_reflect(reflections) {
+                            return;
+                        }
+                        reflections += 1;
+                        let reflectance = Reflectance::of(wall.colour);
+                        for (n, value) in light.weights.value.iter_mut().enumerate() {
+                            *value *= reflectance.at(self.optics.lambda_nm(n));
+                        }
+                        ray = surfaces::reflected(&wall, random);
+                        continue;
+                    }
                     let share = light.weights.share;
                     for (n, shine) in self.environment.iter().enumerate() {
                         light.radiance[n] += light.weights.value[n] * share * shine;
@@ -99,10 +119,12 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// From the ray's origin to the next scattering or out, taking up the emission on the way.
+    /// From the ray's origin to the next scattering, or out, or to a limit along the ray (m), taking up the emission on
+    /// the way.
     fn fly(
         &self,
         ray: &Ray,
+        limit: f64,
         may_scatter: bool,
         light: &mut Light<'_>,
         random: &mut Stream,
@@ -120,9 +142,10 @@ impl<'a> Tracer<'a> {
                 continue;
             }
             let mut t = stretch.from;
+            let end = stretch.to.min(limit);
             loop {
                 t += random.exponential() / rate;
-                if t >= stretch.to {
+                if t >= end {
                     break;
                 }
                 let place = self.place(local.at(t));

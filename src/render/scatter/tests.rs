@@ -1,6 +1,7 @@
 //! Tests of the light that is scattered once.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use crate::render::{Plan, Switch};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -68,7 +69,10 @@ fn plan(scene: &Scene) -> Plan {
         step_voxels: 0.5,
         wavelengths: WavelengthSet::Fitted(6),
         samples_per_pixel: 1,
-        effects: Effects::AUTO,
+        effects: Effects {
+            scattering: Switch::On,
+            ..Effects::AUTO
+        },
     };
     Plan::new(scene, &settings)
 }
@@ -119,9 +123,9 @@ fn the_middle_of_an_even_ball_sees_its_closed_form_from_all_sides() {
         let radius = 20.0;
         let scene = scene(ball(radius, 2e-6, 1700.0), 60.0, Some(asymmetry));
         let plan = plan(&scene);
-        let field = InScatter::new(&scene, &plan, Level::Fine, &Cancel::never()).unwrap();
+        let field = InScatter::new(&scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
         let found = read(&field, middle(&scene));
-        for (i, &nm) in plan.wavelengths.nodes_nm.iter().enumerate() {
+        for (i, &nm) in plan.tables.wavelengths.nodes_nm.iter().enumerate() {
             let absorbed = scene.flame.absorption_per_sample(nm) * 2e-6;
             let all = absorbed + scene.flame.scattering_per_sample(nm)[0] * 2e-6;
             let reach = -(-all * 0.01 * radius).exp_m1();
@@ -139,9 +143,9 @@ fn a_deep_ball_is_a_furnace_whatever_the_asymmetry() {
     for asymmetry in [-0.9, 0.0, 0.9] {
         let scene = scene(ball(20.0, 1e-4, 1700.0), 60.0, Some(asymmetry));
         let plan = plan(&scene);
-        let field = InScatter::new(&scene, &plan, Level::Coarse, &Cancel::never()).unwrap();
+        let field = InScatter::new(&scene, &plan.tables, Level::Coarse, &Cancel::never()).unwrap();
         let found = read(&field, middle(&scene));
-        for (i, &nm) in plan.wavelengths.nodes_nm.iter().enumerate() {
+        for (i, &nm) in plan.tables.wavelengths.nodes_nm.iter().enumerate() {
             let absorbed = scene.flame.absorption_per_sample(nm);
             let all = absorbed + scene.flame.scattering_per_sample(nm)[0];
             let expected = blackbody::spectral_radiance(nm, 1700.0) * absorbed / all;
@@ -189,7 +193,7 @@ fn errors(scene: &Scene, plan: &Plan, fields: &[InScatter], asymmetry: f64) -> V
     let medium = scene.flame.medium();
     let phase = crate::physics::phase::HenyeyGreenstein::new(asymmetry).unwrap();
     let node = 3;
-    let nm = plan.wavelengths.nodes_nm[node];
+    let nm = plan.tables.wavelengths.nodes_nm[node];
     let places = (0_u32..).map(|i| {
         let place = crate::math::random::philox([i, 0, 0, 0], [5, 0]);
         let place = [0, 1, 2].map(|axis: usize| f64::from(place[axis]) / f64::from(u32::MAX));
@@ -236,7 +240,7 @@ fn the_field_agrees_with_rays_in_all_directions_from_single_places() {
         let scene = scene(procedural::torch(), 60.0, Some(asymmetry));
         let plan = plan(&scene);
         let fields = [Level::Fine, Level::Coarse]
-            .map(|level| InScatter::new(&scene, &plan, level, &Cancel::never()).unwrap());
+            .map(|level| InScatter::new(&scene, &plan.tables, level, &Cancel::never()).unwrap());
         let [fine, coarse] = errors(&scene, &plan, &fields, asymmetry)[..] else {
             panic!("two fields")
         };
@@ -252,7 +256,8 @@ fn the_field_agrees_with_rays_in_all_directions_from_single_places() {
 fn what_is_left_out_is_about_what_the_reference_adds() {
     for radius_nm in [60.0, 80.0] {
         let scene = scene(procedural::torch(), radius_nm, None);
-        let field = InScatter::new(&scene, &plan(&scene), Level::Fine, &Cancel::never()).unwrap();
+        let field =
+            InScatter::new(&scene, &plan(&scene).tables, Level::Fine, &Cancel::never()).unwrap();
         let [once, all] = [1, u32::MAX].map(|bounces| compare(&scene, 8192, bounces).2);
         println!(
             "{radius_nm} nm: {:.5} added, {:.5} estimated",
@@ -290,7 +295,8 @@ fn what_accuracy_costs() {
         for (cells, directions) in efforts {
             let begin = std::time::Instant::now();
             let effort = Effort { cells, directions };
-            let field = InScatter::with_effort(&scene, &plan, effort, &Cancel::never()).unwrap();
+            let field =
+                InScatter::with_effort(&scene, &plan.tables, effort, &Cancel::never()).unwrap();
             println!(
                 "  {cells} {directions}: {:?} cells of {} voxels, {:.3} s, left out {:.5}",
                 field.size,
@@ -300,7 +306,7 @@ fn what_accuracy_costs() {
             );
             fields.push(field);
         }
-        let asymmetry = scene.flame.asymmetry(plan.wavelengths.nodes_nm[3]);
+        let asymmetry = scene.flame.asymmetry(plan.tables.wavelengths.nodes_nm[3]);
         for (effort, error) in efforts
             .iter()
             .zip(errors(&scene, &plan, &fields, asymmetry))
@@ -319,7 +325,9 @@ fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| InScatter::new(&scene, &plan, Level::Coarse, &Cancel::never()).unwrap())
+        pool.install(|| {
+            InScatter::new(&scene, &plan.tables, Level::Coarse, &Cancel::never()).unwrap()
+        })
     };
     let (one, two) = (with(1), with(2));
     let bits = |field: &InScatter| -> Vec<u32> {
@@ -338,7 +346,7 @@ fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
     );
 
     let passed = Cancel::when_passed(Arc::new(1.into()), 0);
-    assert!(InScatter::new(&scene, &plan, Level::Coarse, &passed).is_none());
+    assert!(InScatter::new(&scene, &plan.tables, Level::Coarse, &passed).is_none());
 }
 
 #[test]
@@ -353,7 +361,7 @@ fn no_fire_scatters_nothing() {
     );
     let scene = scene(Volume::from_grids(vec![empty], "empty"), 40.0, None);
     let plan = plan(&scene);
-    let field = InScatter::new(&scene, &plan, Level::Fine, &Cancel::never()).unwrap();
+    let field = InScatter::new(&scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
     assert!(read(&field, DVec3::ONE).iter().all(|light| *light == 0.0));
     assert_eq!(field.orders_left_out(), 0.0);
 }
@@ -364,7 +372,7 @@ fn marched(scene: &Scene, plan: &Plan, field: &InScatter, ray: &Ray, step_voxels
     let Some((local, [enter, exit])) = medium.enter(ray) else {
         return [0.0; 3];
     };
-    let nodes = &plan.wavelengths.nodes_nm;
+    let nodes = &plan.tables.wavelengths.nodes_nm;
     let laws: Vec<(f64, [f64; 2])> = nodes
         .iter()
         .map(|&nm| {
@@ -395,19 +403,19 @@ fn marched(scene: &Scene, plan: &Plan, field: &InScatter, ray: &Ray, step_voxels
             depth[n] += (sigma_a + sigma_s) * length;
         }
     }
-    plan.wavelengths.xyz_of(light)
+    plan.tables.wavelengths.xyz_of(light)
 }
 
 /// Largest |z| of any pixel, mean of z times the root of their number, and the single light's share.
 fn compare(scene: &Scene, paths: u32, bounces: u32) -> (f64, [f64; 3], f64) {
     let plan = plan(scene);
-    let field = InScatter::new(scene, &plan, Level::Fine, &Cancel::never()).unwrap();
+    let field = InScatter::new(scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
     let params = Params {
         scattering: Scattering::Flame,
         max_bounces: bounces,
         ..Params::default()
     };
-    let reference = NullCollision::new(scene, &plan.wavelengths, &params);
+    let reference = NullCollision::new(scene, &plan.tables.wavelengths, &params);
     let size = [12, 12];
     let estimates = reference.render(size, paths, 7).unwrap();
     let view = scene.camera.view(size).unwrap();

@@ -2,9 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::math::Ray;
-use crate::scene::camera::{Camera, CameraError};
-
 /// A screen that faces the camera and fills its picture, so far behind the point that the camera looks at. It shines by
 /// itself, the same into all directions, and lights nothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,33 +35,4 @@ pub struct BackdropPicture {
     pub size: [u32; 2],
     /// Linear Rec. 709 red, green, blue, row by row from the top; white is 1.
     pub pixels: Vec<[f32; 3]>,
-}
-
-/// A backdrop in its place before one camera.
-#[derive(Debug, Clone)]
-pub struct Screen {}
-
-impl Backdrop {
-    /// The screen that faces a camera, for a picture of `size` pixels.
-    ///
-    /// # Errors
-    /// The camera cannot see.
-    pub fn facing(&self, camera: &Camera, size: [u32; 2]) -> Result<Screen, CameraError> {
-        camera.view(size).map(|_| Screen {})
-    }
-}
-
-impl Screen {
-    /// X, Y, Z of what a ray sees on the screen, W m⁻² sr⁻¹; black where it meets none of it.
-    pub fn xyz(&self, ray: &Ray) -> [f64; 3] {
-        let _ = ray;
-        [0.0; 3]
-    }
-
-    /// Where on the picture (pixels from the upper left corner) the point of the screen that a ray meets would be seen if
-    /// light went straight; `None` where it meets none.
-    pub fn pixel(&self, ray: &Ray) -> Option<[f64; 2]> {
-        let _ = ray;
-        None
-    }
 }

@@ -2,15 +2,21 @@
 //!
 //! Surfaces are matt: they send what falls on them evenly into all directions (Lambert). They do not glow, light does
 //! not go from one to another, and the fire's gas flows through them as if they were not there.
+//!
+//! `shapes` say what there is, `meet` where a ray meets it, `shadow` what it hides of a small luminous ball.
 
 use glam::DVec3;
 
 use crate::math::Ray;
 
 mod backdrop;
+mod meet;
+mod screen;
+mod shadow;
 mod shapes;
 
-pub use backdrop::{Backdrop, BackdropPicture, Pattern, Screen};
+pub use backdrop::{Backdrop, BackdropPicture, Pattern};
+pub use screen::Screen;
 pub use shapes::{Ground, Log, Sphere};
 
 /// Where a ray meets a surface.
@@ -18,7 +24,8 @@ pub use shapes::{Ground, Log, Sphere};
 pub struct Hit {
     /// Distance along the ray, m.
     pub distance_m: f64,
-    /// The point, m.
+    /// The point, m: a billionth of the lengths that went into it before the surface, on the side that the ray comes
+    /// from, so that a ray that goes on from here does not meet the same surface again.
     pub point: DVec3,
     /// Unit normal on the side that the ray comes from.
     pub normal: DVec3,
@@ -45,10 +52,34 @@ impl Stage {
         self.ground.is_some() || !self.spheres.is_empty() || !self.logs.is_empty()
     }
 
-    /// The first surface that a ray meets before a distance (m, may be infinite).
+    /// The first surface that a ray meets before a distance (m, may be infinite). From below the ground is not there;
+    /// from inside a sphere or a log its inner side is.
     pub fn hit(&self, ray: &Ray, limit_m: f64) -> Option<Hit> {
-        let _ = (ray, limit_m);
-        None
+        let ground = self.ground.iter().filter_map(|ground| ground.meet(ray));
+        let spheres = self.spheres.iter().filter_map(|sphere| sphere.meet(ray));
+        let logs = self.logs.iter().filter_map(|log| log.meet(ray));
+        ground
+            .chain(spheres)
+            .chain(logs)
+            .filter(|hit| hit.distance_m < limit_m)
+            .min_by(|a, b| a.distance_m.total_cmp(&b.distance_m))
+    }
+
+    /// How much of the light of a small luminous ball, 0 to 1, comes past what stands on the stage to a point of a
+    /// surface with a unit normal. The surface's own horizon is left to the cosine.
+    pub fn visibility(&self, from: DVec3, normal: DVec3, to: DVec3, radius_m: f64) -> f64 {
+        let beam = shadow::Beam::new(from, normal, to, radius_m);
+        let mut share = match &self.ground {
+            Some(ground) => beam.past_ground(ground),
+            None => 1.0,
+        };
+        for sphere in &self.spheres {
+            share *= beam.past_sphere(sphere);
+        }
+        for log in &self.logs {
+            share *= beam.past_log(log);
+        }
+        share
     }
 
     /// Whether anything can be seen through the fire.
@@ -56,3 +87,6 @@ impl Stage {
         self.has_surfaces() || self.backdrop.is_some()
     }
 }
+
+#[cfg(test)]
+mod tests;
