@@ -123,7 +123,7 @@ fn air_is_typed_as_people_write_it() {
     assert_eq!(flame.air.temperature_k, 273.15);
     assert_eq!(flame.air.edition, Edition::Ciddor1996);
     assert_eq!(flame.bending.expect("bent light").gain, 4.0);
-    harness.get_by_label_contains("refraction is exaggerated 4 times");
+    harness.get_by_label("• refraction is exaggerated 4 times");
     double_click_name(&mut harness, "Exaggeration");
     double_click_name(&mut harness, "Pressure");
     let flame = job(&harness).flame;
@@ -137,10 +137,10 @@ fn air_is_typed_as_people_write_it() {
 fn effects_are_switched_and_what_needs_them_says_so() {
     let mut harness = tall_window(Project::default());
     assert!(job(&harness).flame.scattering.is_some());
-    choose(&mut harness, "Scattering", "Off");
+    choose(&mut harness, "Scattered light", "Off");
     assert!(job(&harness).flame.scattering.is_none());
     harness.get_by_label("it acts through scattering, which is off: switch it on under Effects");
-    double_click_name(&mut harness, "Scattering");
+    double_click_name(&mut harness, "Scattered light");
     assert!(job(&harness).flame.scattering.is_some());
     for (label, read) in [
         (

@@ -16,7 +16,7 @@ pub(super) fn show(ui: &mut Ui, effects: &mut EffectSettings, known: Known<'_>) 
         let rows: [Row<'_>; 6] = [
             (
                 "scattering",
-                "Scattering",
+                "Scattered light",
                 "The fire's own light, scattered once towards the eye by soot and smoke: a glow in smoke that is cold \
                  and would only darken. Auto: where it can be seen.",
                 &mut effects.scattering,
