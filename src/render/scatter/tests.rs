@@ -1,7 +1,6 @@
 //! Tests of the light that is scattered once.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use crate::render::{Plan, Switch};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -13,7 +12,7 @@ use crate::math::lanes::LANES;
 use crate::physics::blackbody;
 use crate::physics::soot::{Hold, SootModel};
 use crate::render::null_collision::{NullCollision, Params, Scattering};
-use crate::render::{Effects, Settings};
+use crate::render::{Effects, Plan, Settings, Switch};
 use crate::scene::{
     Air, Camera, Flame, FlameParams, Fuel, GlowParams, Interpolation, Placement, ScatteringParams,
     Stage, WavelengthSet,
