@@ -151,7 +151,11 @@ impl Kernel for Sum<'_> {
         let mut part = Part::default();
         for cell in 0..cells * cells * cells {
             let at = [cell % cells, cell / cells % cells, cell / cells / cells];
-            self.cell(at.map(|at| at * (points / cells)), points / cells, &mut part);
+            self.cell(
+                at.map(|at| at * (points / cells)),
+                points / cells,
+                &mut part,
+            );
         }
         part
     }
@@ -164,8 +168,8 @@ impl Sum<'_> {
         let (medium, channels) = (self.medium, self.channels);
         let apart = BRICK as f64 / self.fineness.points as f64;
         let origin = self.brick.as_dvec3() * BRICK as f64;
-        let middle = origin
-            + apart * DVec3::from(first.map(|first| first as f64 + 0.5 * count as f64));
+        let middle =
+            origin + apart * DVec3::from(first.map(|first| first as f64 + 0.5 * count as f64));
         let turn = self.world_from_lattice.as_mat3();
         let blocks = channels.blocks();
         let mut emission = vec![[0.0; BLOCK]; blocks];

@@ -95,7 +95,10 @@ impl Columns {
             let step = length / steps;
             for i in 0..steps as u32 {
                 let position = local.at(stretch.from + (f64::from(i) + 0.5) * step);
-                add(self.cells.dense[self.cells.cell_at(stretch.slot, position)], step);
+                add(
+                    self.cells.dense[self.cells.cell_at(stretch.slot, position)],
+                    step,
+                );
             }
         });
         sum

@@ -51,10 +51,7 @@ impl Directions {
         let size = direction.x.abs() + direction.y.abs() + direction.z.abs();
         let (mut x, mut y) = (direction.x / size, direction.y / size);
         if direction.z < 0.0 {
-            (x, y) = (
-                (1.0 - y.abs()).copysign(x),
-                (1.0 - x.abs()).copysign(y),
-            );
+            (x, y) = ((1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y));
         }
         let cell = |at: f64| {
             let at = 0.5 * (at + 1.0) * self.squares as f64;

@@ -133,10 +133,16 @@ fn thermal_shares(channels: &Channels, followed: &[Sums]) -> Vec<f32> {
             followed
                 .iter()
                 .filter_map(|sums| of(sums).get(i))
-                .fold([0.0; 2], |sum, lines| [sum[0] + lines[0], sum[1] + lines[1]])
+                .fold([0.0; 2], |sum, lines| {
+                    [sum[0] + lines[0], sum[1] + lines[1]]
+                })
         };
         let [grown, thin] = sum(|sums| &sums.lines);
-        if thin > 0.0 { (grown / thin).max(0.0) as f32 } else { 1.0 }
+        if thin > 0.0 {
+            (grown / thin).max(0.0) as f32
+        } else {
+            1.0
+        }
     };
     (0..channels.thermal.len()).map(share).collect()
 }
@@ -180,7 +186,10 @@ impl Kernel for Follow<'_> {
             lines: vec![[0.0; 2]; self.channels.thermal.len()],
         };
         // The lattice's own inwards direction, with the length of one of its units along it.
-        let inwards = -self.medium.lattice_from_world.transform_vector3(self.outwards);
+        let inwards = -self
+            .medium
+            .lattice_from_world
+            .transform_vector3(self.outwards);
         let metres = 1.0 / inwards.length();
         let inwards = inwards * metres;
         let hull = self.hull();
@@ -246,11 +255,8 @@ impl Follow<'_> {
                     for block in 0..blocks {
                         let at = table as usize * blocks + block;
                         let power = &self.cells.power[cell * blocks + block];
-                        let share = mean_transmittance(
-                            &self.channels.extinction[block],
-                            column,
-                            added,
-                        );
+                        let share =
+                            mean_transmittance(&self.channels.extinction[block], column, added);
                         let (out, all) = (&mut sums.out[at], &mut sums.all[at]);
                         for k in 0..BLOCK {
                             all[k] += power[k];
@@ -258,7 +264,15 @@ impl Follow<'_> {
                         }
                     }
                     if !self.channels.thermal.is_empty() {
-                        self.grow(cell, table as usize, column, added, step_m as f32, &mut lines, sums);
+                        self.grow(
+                            cell,
+                            table as usize,
+                            column,
+                            added,
+                            step_m as f32,
+                            &mut lines,
+                            sums,
+                        );
                     }
                 }
                 column = [column[0] + added[0], column[1] + added[1]];

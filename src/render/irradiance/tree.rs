@@ -209,6 +209,10 @@ fn gathered(spots: impl Iterator<Item = Spot> + Clone) -> Spot {
 
 /// The bits of three numbers below 2²¹ in turn.
 fn morton(at: UVec3) -> u64 {
-    let spread = |number: u32| (0..21).fold(0_u64, |key, bit| key | (u64::from(number >> bit & 1) << (3 * bit)));
+    let spread = |number: u32| {
+        (0..21).fold(0_u64, |key, bit| {
+            key | (u64::from(number >> bit & 1) << (3 * bit))
+        })
+    };
     spread(at.x) | spread(at.y) << 1 | spread(at.z) << 2
 }

@@ -74,7 +74,10 @@ mod tests {
             square += ray.direction.dot(normal).powi(2) / f64::from(count);
         }
         let five_errors = 5.0 / f64::from(count).sqrt();
-        assert!((mean - normal * (2.0 / 3.0)).length() < five_errors, "{mean}");
+        assert!(
+            (mean - normal * (2.0 / 3.0)).length() < five_errors,
+            "{mean}"
+        );
         assert!((square - 0.5).abs() < five_errors, "{square}");
     }
 }

@@ -6,8 +6,8 @@
 
 use glam::DVec3;
 
-use super::shapes::{Ground, Log, Sphere};
 use super::Hit;
+use super::shapes::{Ground, Log, Sphere};
 use crate::math::Ray;
 
 /// How far a point is pushed off its surface, and how near the ray's origin nothing is met, in units of the lengths that

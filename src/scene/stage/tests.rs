@@ -55,7 +55,12 @@ fn assert_hit(stage: &Stage, ray: &Ray, distance_m: f64, normal: [f64; 3]) {
 #[test]
 fn the_ground_is_met_from_above_only() {
     let stage = ground(-1.0);
-    assert_hit(&stage, &ray([5.0, 3.0, 1.0], [0.0, 0.0, -1.0]), 2.0, [0.0, 0.0, 1.0]);
+    assert_hit(
+        &stage,
+        &ray([5.0, 3.0, 1.0], [0.0, 0.0, -1.0]),
+        2.0,
+        [0.0, 0.0, 1.0],
+    );
     for blind in [
         ray([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]),
         ray([0.0, 0.0, 1.0], [0.0, 0.3, 1.0]),
@@ -73,15 +78,38 @@ fn the_ground_is_met_from_above_only() {
 #[test]
 fn spheres_and_logs_are_met_outside_and_inside() {
     let stage = sphere([1.0, 0.0, 0.0], 0.5);
-    assert_hit(&stage, &ray([-2.0, 0.0, 0.0], [1.0, 0.0, 0.0]), 2.5, [-1.0, 0.0, 0.0]);
-    assert_hit(&stage, &ray([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), 0.5, [0.0, -1.0, 0.0]);
-    assert_eq!(stage.hit(&ray([-2.0, 0.6, 0.0], [1.0, 0.0, 0.0]), 9.0), None);
+    assert_hit(
+        &stage,
+        &ray([-2.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+        2.5,
+        [-1.0, 0.0, 0.0],
+    );
+    assert_hit(
+        &stage,
+        &ray([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+        0.5,
+        [0.0, -1.0, 0.0],
+    );
+    assert_eq!(
+        stage.hit(&ray([-2.0, 0.6, 0.0], [1.0, 0.0, 0.0]), 9.0),
+        None
+    );
     assert_eq!(stage.hit(&ray([3.0, 0.0, 0.0], [1.0, 0.0, 0.0]), 9.0), None);
 
     let stage = log([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]], 0.25);
-    assert_hit(&stage, &ray([0.0, 0.3, 4.0], [0.0, 0.0, -1.0]), 3.75, [0.0, 0.0, 1.0]);
+    assert_hit(
+        &stage,
+        &ray([0.0, 0.3, 4.0], [0.0, 0.0, -1.0]),
+        3.75,
+        [0.0, 0.0, 1.0],
+    );
     // The round end, head on, and along the log from the side.
-    assert_hit(&stage, &ray([0.0, 4.0, 0.0], [0.0, -1.0, 0.0]), 2.75, [0.0, 1.0, 0.0]);
+    assert_hit(
+        &stage,
+        &ray([0.0, 4.0, 0.0], [0.0, -1.0, 0.0]),
+        2.75,
+        [0.0, 1.0, 0.0],
+    );
     let end = (0.25_f64 * 0.25 - 0.15 * 0.15).sqrt();
     assert_hit(
         &stage,
@@ -89,8 +117,16 @@ fn spheres_and_logs_are_met_outside_and_inside() {
         3.0 - end,
         [0.6, end / 0.25, 0.0],
     );
-    assert_hit(&stage, &ray([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]), 0.25, [-1.0, 0.0, 0.0]);
-    assert_eq!(stage.hit(&ray([0.0, 1.2, 4.0], [0.26, 0.0, -4.0]), 9.0), None);
+    assert_hit(
+        &stage,
+        &ray([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+        0.25,
+        [-1.0, 0.0, 0.0],
+    );
+    assert_eq!(
+        stage.hit(&ray([0.0, 1.2, 4.0], [0.26, 0.0, -4.0]), 9.0),
+        None
+    );
 
     // A log without length is a ball.
     let [ball, point] = [sphere([1.0, 2.0, 3.0], 0.5), log([[1.0, 2.0, 3.0]; 2], 0.5)];
@@ -283,6 +319,9 @@ fn a_picture_is_fitted_to_the_height_and_black_around() {
     let y = |x: f64, y: f64| screen.xyz(&view.ray(x, y))[1];
     assert!((y(15.0, 5.0) - 1.0).abs() < 1e-9, "upper left");
     assert!((y(25.0, 15.0) - 0.5).abs() < 1e-9, "lower right");
-    assert!((y(20.0, 10.0) - 0.375).abs() < 1e-9, "the mean in the middle");
+    assert!(
+        (y(20.0, 10.0) - 0.375).abs() < 1e-9,
+        "the mean in the middle"
+    );
     assert_eq!((y(9.9, 5.0), y(30.1, 5.0)), (0.0, 0.0));
 }

@@ -1,8 +1,8 @@
 //! Inside and beside the fire, behind soot, in the shadow.
 
 use super::*;
-use crate::physics::blackbody;
 use crate::math::{Aabb, Ray};
+use crate::physics::blackbody;
 use crate::scene::stage::{Ground, Sphere};
 
 const EDGE_M: f64 = 0.32;
@@ -52,8 +52,16 @@ fn inside_and_on_an_even_cube_it_is_the_integral_over_its_chords() {
         let light = light(&scene, &plan, Level::Fine);
         for (name, at, normal) in [
             ("middle", DVec3::splat(0.5), DVec3::Z),
-            ("aside", DVec3::new(0.3, 0.62, 0.41), DVec3::new(0.6, 0.0, 0.8)),
-            ("in a corner", DVec3::new(0.06, 0.05, 0.07), DVec3::ONE.normalize()),
+            (
+                "aside",
+                DVec3::new(0.3, 0.62, 0.41),
+                DVec3::new(0.6, 0.0, 0.8),
+            ),
+            (
+                "in a corner",
+                DVec3::new(0.06, 0.05, 0.07),
+                DVec3::ONE.normalize(),
+            ),
             ("on a face", DVec3::new(0.5, 0.4, -1e-6), DVec3::Z),
             ("below", DVec3::new(0.7, 0.4, -0.3), DVec3::Z),
         ] {
@@ -79,7 +87,11 @@ fn dense_soot_between_takes_its_share() {
         let place = [EDGE_M * DVec3::new(0.5, 0.5, z), DVec3::Z];
         let ours = irradiance(&light, &plan, &Stage::default(), place);
         let marched = marched_irradiance(&scene, &plan, place, 150.0);
-        println!("behind soot at {z}: {:.2e} {:.3?}", off(&ours, &marched), marched);
+        println!(
+            "behind soot at {z}: {:.2e} {:.3?}",
+            off(&ours, &marched),
+            marched
+        );
         assert!(off(&ours, &marched) < 0.06, "{z}");
     }
 }
@@ -126,7 +138,10 @@ fn a_sphere_throws_a_smooth_shadow_on_the_ground() {
     let mut penumbra = 0;
     for i in 0..=2000 {
         let now = share(0.15 * f64::from(i) / 2000.0);
-        assert!(now - before > -1e-3 && now - before < 0.01, "{i}: {before} {now}");
+        assert!(
+            now - before > -1e-3 && now - before < 0.01,
+            "{i}: {before} {now}"
+        );
         penumbra += u32::from(now > 0.01 && now < 0.99);
         before = now;
     }
@@ -160,10 +175,13 @@ fn what_looks_away_is_dark_and_so_is_what_lies_under_the_ground() {
         ..Stage::default()
     };
     let beside = [EDGE_M * DVec3::new(0.5, 1.5, 1.2), DVec3::NEG_Y];
-    let [buried, free] = [&high, &Stage::default()]
-        .map(|stage| irradiance(&light, &plan, stage, beside)[2]);
+    let [buried, free] =
+        [&high, &Stage::default()].map(|stage| irradiance(&light, &plan, stage, beside)[2]);
     // The lamp fills 0.83 to 0.97 of the edge: a seventh stands out.
-    assert!(buried > 0.05 * free && buried < 0.3 * free, "{buried} {free}");
+    assert!(
+        buried > 0.05 * free && buried < 0.3 * free,
+        "{buried} {free}"
+    );
 }
 
 #[test]
@@ -172,7 +190,10 @@ fn threads_make_no_difference() {
     let plan = plan(&scene);
     let found = [1, 2].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let light = pool.build().unwrap().install(|| light(&scene, &plan, Level::Coarse));
+        let light = pool
+            .build()
+            .unwrap()
+            .install(|| light(&scene, &plan, Level::Coarse));
         (0..50)
             .flat_map(|i| {
                 let point = DVec3::new(0.01 * f64::from(i), -0.05, 0.02);
