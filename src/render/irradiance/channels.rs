@@ -15,8 +15,7 @@ pub(super) type Block = [f32; BLOCK];
 /// The laws of each channel, padded with channels in which nothing happens.
 #[derive(Debug)]
 pub(super) struct Channels {
-    /// Nodes and features without the padding.
-    pub(super) count: usize,
+    /// How many channels are nodes; the features follow, then the padding.
     nodes: usize,
     /// Planck's radiance without its exponential times the absorption for each unit of volume fraction.
     scale: Vec<Block>,
@@ -51,7 +50,6 @@ impl Channels {
         let count = nodes + tables.features.len();
         let blocks = count.div_ceil(BLOCK).max(1);
         let mut channels = Self {
-            count,
             nodes,
             scale: vec![[0.0; BLOCK]; blocks],
             // Planck's exponential of the padding is nothing, not one over nothing.

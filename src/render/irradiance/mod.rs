@@ -75,8 +75,9 @@ struct Effort {
     squares: usize,
     /// Most steps of all lines of all directions.
     steps: usize,
-    /// How large a node's ball may look to be one light: radius over distance.
-    opening: f64,
+    /// How large a node's ball may look to be one light: radius over distance. First of cells and bricks, then of what is
+    /// larger: of a dense fire only the side towards the point is seen, so its light comes from nearer than its middle.
+    opening: [f64; 2],
     /// Most blocks of channels that all tables of the lowest level hold; 32 bytes each.
     table_blocks: usize,
 }
@@ -86,13 +87,13 @@ impl Effort {
         match level {
             Level::Coarse => Self {
                 finest: Fineness {
-                    cells: 2,
+                    cells: 4,
                     points: 4,
                 },
                 points: 200_000,
-                squares: 8,
+                squares: 4,
                 steps: 1_000_000,
-                opening: 0.4,
+                opening: [0.4, 0.2],
                 table_blocks: 200_000,
             },
             Level::Fine => Self {
@@ -103,7 +104,7 @@ impl Effort {
                 points: 16_000_000,
                 squares: 24,
                 steps: 60_000_000,
-                opening: 0.3,
+                opening: [0.35, 0.12],
                 table_blocks: 2_000_000,
             },
         }
@@ -128,7 +129,7 @@ impl Effort {
 /// The fire's light, gathered so that any point of a surface can ask for it.
 #[derive(Debug)]
 pub(super) struct FireLight {
-    opening: f64,
+    opening: [f64; 2],
     channels: Channels,
     tree: Tree,
     escape: Escape,
@@ -196,7 +197,7 @@ impl FireLight {
             }
             let distance = to_light.length();
             let [first, children] = node.children;
-            if children > 0 && node.radius_m > self.opening * distance {
+            if children > 0 && node.radius_m > self.opening_of(index) * distance {
                 for child in first..first + children {
                     open[count] = child;
                     count += 1;
@@ -229,6 +230,13 @@ impl FireLight {
         for (found, sum) in found.iter_mut().zip(sums.as_flattened()) {
             *found = *sum;
         }
+    }
+
+    /// How large a node may look to be one light, radius over distance.
+    #[inline]
+    fn opening_of(&self, node: u32) -> f64 {
+        let is_large = node as usize >= self.tree.first_table + self.tree.tables;
+        self.opening[usize::from(is_large)]
     }
 
     /// Adds the light of a node that is so near that it is a part of a table's.

@@ -3,7 +3,6 @@
 use super::*;
 use crate::math::{Aabb, Ray};
 use crate::physics::blackbody;
-use crate::render::Plan;
 use crate::scene::stage::{Ground, Sphere};
 
 const EDGE_M: f64 = 0.32;
