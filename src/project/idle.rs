@@ -74,7 +74,26 @@ pub fn why_idle(job: &Job, control: Control, decisions: &[Decision]) -> Option<S
     let mut flame = job.flame.clone();
     flame.scattering = flame.scattering.filter(|_| !is_left_out("scattering"));
     flame.bending = flame.bending.filter(|_| !is_left_out("refraction"));
-    let flame = &flame;
+    let dark = is_left_out("fire_light") || job.settings.effects.fire_light == Switch::Off;
+    is_idle(job, &flame, dark, control).then(|| words(job, &flame, control, decisions))
+}
+
+fn is_none(map: Option<&FieldMap>, amount: f64) -> bool {
+    map.is_none() || amount <= 0.0
+}
+
+fn has_no_soot(flame: &FlameParams) -> bool {
+    is_none(flame.maps.soot.as_ref(), flame.soot_amount)
+        && is_none(flame.maps.smoke.as_ref(), flame.smoke_amount)
+}
+
+fn is_sootless(job: &Job) -> bool {
+    job.soot_follows_fuel && job.flame.fuel.row().soot_yield <= 0.0
+}
+
+/// The reason, for a control that is idle.
+fn words(job: &Job, flame: &FlameParams, control: Control, decisions: &[Decision]) -> String {
+    let (no_soot, sootless) = (has_no_soot(flame), is_sootless(job));
     let effects = &job.settings.effects;
     let scattering = || {
         without(
@@ -88,16 +107,16 @@ pub fn why_idle(job: &Job, control: Control, decisions: &[Decision]) -> Option<S
         let nothing = "nothing behind the fire shows it: add a backdrop or a stage";
         without("refraction", effects.refraction, decisions, nothing)
     };
-    let sootless = job.soot_follows_fuel && flame.fuel.row().soot_yield <= 0.0;
-    let is_none = |map: &Option<FieldMap>, amount: f64| map.is_none() || amount <= 0.0;
-    let no_soot = is_none(&flame.maps.soot, flame.soot_amount)
-        && is_none(&flame.maps.smoke, flame.smoke_amount);
     let words: &str = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
             "the file says how much soot there is, and this soot model has one soot for all fuels: choose another below"
         }
         Control::Heat if no_soot => "there is no soot, and no gas that glows by its heat",
-        Control::SootModel | Control::Hold | Control::SootRadius if no_soot => "there is no soot",
+        Control::SootModel | Control::Hold | Control::SootRadius | Control::Asymmetry
+            if no_soot =>
+        {
+            "there is no soot"
+        }
         Control::SootModel => "the soot models agree here",
         Control::Hold => "at 21.25 nm, where the file's soot holds, both are the same",
         Control::Heat => "the temperature does not matter here",
@@ -119,22 +138,21 @@ pub fn why_idle(job: &Job, control: Control, decisions: &[Decision]) -> Option<S
         Control::BlueGlow => {
             "no field says where gas burns: choose one for “Flame from” under Volume"
         }
-        Control::Humidity => &format!("humidity acts through {}", refraction()),
+        Control::Humidity | Control::Saturation => {
+            &format!("humidity acts through {}", refraction())
+        }
         Control::Co2 => &format!("CO₂ acts through {}", refraction()),
         Control::Pressure => &format!("pressure acts through {}", refraction()),
-        Control::Saturation => &format!("humidity acts through {}", refraction()),
         Control::AirTemperature => &format!(
             "the file says how hot all its gas is; around it heat acts through {}",
             refraction()
         ),
         Control::RefractionGain => &format!("it acts through {}", refraction()),
         Control::Dispersion => &format!("it is a part of {}", refraction()),
-        Control::Asymmetry if no_soot => "there is no soot",
-        Control::Asymmetry => &format!("it acts through {}", scattering()),
-        Control::SmokeAlbedo if is_none(&flame.maps.smoke, flame.smoke_amount) => {
+        Control::SmokeAlbedo if is_none(flame.maps.smoke.as_ref(), flame.smoke_amount) => {
             "there is no smoke"
         }
-        Control::SmokeAlbedo => &format!("it acts through {}", scattering()),
+        Control::Asymmetry | Control::SmokeAlbedo => &format!("it acts through {}", scattering()),
         Control::StageColour => &format!(
             "colours act through {}",
             without(
@@ -146,12 +164,18 @@ pub fn why_idle(job: &Job, control: Control, decisions: &[Decision]) -> Option<S
             .replace('_', " ")
         ),
     };
+    words.to_owned()
+}
+
+/// Whether a control makes no difference to a job whose flame is what its plan makes of it.
+fn is_idle(job: &Job, flame: &FlameParams, dark: bool, control: Control) -> bool {
+    let (no_soot, sootless) = (has_no_soot(flame), is_sootless(job));
     let same = |change: &dyn Fn(&mut FlameParams)| {
         let mut other = flame.clone();
         change(&mut other);
         flame.gives_same_light_as(&other)
     };
-    let idle = match control {
+    match control {
         Control::SootModel => {
             no_soot
                 || SootModel::ALL
@@ -192,11 +216,10 @@ pub fn why_idle(job: &Job, control: Control, decisions: &[Decision]) -> Option<S
         Control::RefractionGain | Control::Dispersion => flame.bending.is_none(),
         Control::Asymmetry => no_soot || flame.scattering.is_none(),
         Control::SmokeAlbedo => {
-            is_none(&flame.maps.smoke, flame.smoke_amount) || flame.scattering.is_none()
+            is_none(flame.maps.smoke.as_ref(), flame.smoke_amount) || flame.scattering.is_none()
         }
-        Control::StageColour => effects.fire_light == Switch::Off || is_left_out("fire_light"),
-    };
-    idle.then(|| words.to_owned())
+        Control::StageColour => dark,
+    }
 }
 
 #[cfg(test)]
