@@ -172,7 +172,9 @@ impl Medium {
     /// with soot only in its far corner), and notes the peaks. A smooth interpolation reads from the neighbours of what
     /// shows, so it keeps them. Gas that only bends light is kept, and is no peak: nothing of it is seen.
     fn keep_what_shows(&mut self, packed: &[UVec3], gas: GasFields) {
-        let hot_above_k = gas.hot_above_k.map_or(f32::INFINITY, |kelvin| kelvin as f32);
+        let hot_above_k = gas
+            .hot_above_k
+            .map_or(f32::INFINITY, |kelvin| kelvin as f32);
         let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
         let parts: Vec<Option<Peaks>> = bricks
             .enumerate()
@@ -206,7 +208,10 @@ impl Medium {
         }
         if let Some(kelvin) = gas.bends_above_k {
             let bends = self.bending(packed, kelvin as f32);
-            shows.iter_mut().zip(bends).for_each(|(shows, bends)| *shows |= bends);
+            shows
+                .iter_mut()
+                .zip(bends)
+                .for_each(|(shows, bends)| *shows |= bends);
         }
         let mut kept = 0;
         for (i, &brick) in packed.iter().enumerate() {

@@ -63,7 +63,11 @@ impl<'a> Layout<'a> {
             .and_then(|kelvin| Some((source(&maps.temperature, 1.0)?, kelvin)));
         let gases: Vec<(Source<'a>, f64)> = burning.into_iter().chain(hot).collect();
 
-        let seen = |(source, above)| Shown { source, above, margin: 0 };
+        let seen = |(source, above)| Shown {
+            source,
+            above,
+            margin: 0,
+        };
         let absorbing = absorbers.iter().map(|source| seen((source, 0.0)));
         let shining = gases.iter().map(|(source, above)| seen((source, *above)));
         // Where light is bent the difference between neighbours counts, a voxel further.
@@ -134,17 +138,17 @@ fn hull(shown: &[Shown<'_>], limits: &Limits) -> Result<[IVec3; 2], PackingError
 }
 
 /// Bricks that anything may reach with a sample, and those up to `beside` bricks off, in the order of the table.
-fn occupied_bricks(
-    shown: &[Shown<'_>],
-    origin: IVec3,
-    bricks: UVec3,
-    beside: i32,
-) -> Vec<UVec3> {
+fn occupied_bricks(shown: &[Shown<'_>], origin: IVec3, bricks: UVec3, beside: i32) -> Vec<UVec3> {
     let count = bricks.as_u64vec3().element_product() as usize;
     let mut marks = vec![false; count];
     let edge = IVec3::splat(BRICK as i32);
     let (width, height) = (bricks.x as usize, bricks.y as usize);
-    for &Shown { source, above, margin } in shown {
+    for &Shown {
+        source,
+        above,
+        margin,
+    } in shown
+    {
         source.for_each_above(above, |voxels| {
             // A brick at 8b holds samples 8b to 8b + 8, so a voxel on a border is in two of them.
             let min = voxels.min.as_ivec3() - margin;
