@@ -100,21 +100,31 @@ impl<F: Fn(DVec3) -> Index> Path<F> {
             // What is estimated is not what is kept: the third-order end is.
             let excess =
                 (error.origin.length() / position_m).max(error.direction.length() / direction_rad);
-            let factor = if excess > 0.0 {
-                (SAFETY / excess.cbrt()).clamp(SHRINK, GROW)
-            } else {
-                GROW
-            };
-            let accepted = excess <= 1.0 || step_m <= shortest_m;
+            let rejected = excess > 1.0 && step_m > shortest_m;
             // A step cut short by the limit says nothing against longer ones.
-            if !accepted || step_m == self.step_m {
-                self.step_m = (step_m * factor).clamp(shortest_m, longest_m);
+            if rejected || step_m == self.step_m {
+                self.step_m = self.next_step(step_m, excess).max(shortest_m);
             }
-            if accepted {
+            if !rejected {
                 (self.at, self.turn) = (end, turn);
                 return step_m;
             }
         }
+    }
+
+    /// The step after one whose estimated error is so many times the tolerance, m.
+    fn next_step(&self, step_m: f64, excess: f64) -> f64 {
+        let longest_m = self.tolerance.longest_m;
+        // The usual case, and no root of it: a good step that could not be longer.
+        if excess <= SAFETY.powi(3) && step_m >= longest_m {
+            return longest_m;
+        }
+        let factor = if excess > 0.0 {
+            (SAFETY / excess.cbrt()).clamp(SHRINK, GROW)
+        } else {
+            GROW
+        };
+        (step_m * factor).min(longest_m)
     }
 
     /// The end of a step, dt/ds there, and the estimated error of both parts.
@@ -136,7 +146,7 @@ impl<F: Fn(DVec3) -> Index> Path<F> {
         let end_direction = if end_direction == direction {
             direction
         } else {
-            end_direction / end_direction.length()
+            end_direction * end_direction.length_recip()
         };
         let t4 = end_direction;
         let k4 = slope(end_origin, t4);
@@ -159,7 +169,7 @@ impl<F: Fn(DVec3) -> Index> Path<F> {
 #[inline(always)]
 fn turn(index: &Index, direction: DVec3) -> DVec3 {
     let across = index.gradient - index.gradient.dot(direction) * direction;
-    across / (1.0 + index.refractivity)
+    across * (1.0 + index.refractivity).recip()
 }
 
 #[cfg(test)]

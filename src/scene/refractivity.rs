@@ -95,11 +95,11 @@ impl Refractivity {
         size_of_val(&self.samples[..])
     }
 
-    /// At a lattice position of the medium that it was made of: n less that of the air around, and ∇n in the frame of the
+    /// At a lattice position of the medium that it was made of, in its domain: n less that of the air around, and ∇n in the frame of the
     /// world, 1/m; both times the gain. Trilinear; zero where no brick is.
     #[inline(always)]
     pub fn at(&self, medium: &Medium, position: [f64; 3]) -> [f32; 4] {
-        let voxel: [i32; 3] = position.map(|p| p.floor() as i32);
+        let voxel: [i32; 3] = position.map(|p| p as i32);
         let Some(slot) = stored(medium, voxel) else {
             return [0.0; 4];
         };
@@ -284,4 +284,4 @@ impl<'a> Stencil<'a> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
