@@ -11,6 +11,7 @@ use crate::colour::display::View;
 use crate::project::{
     Backdrops, CameraSettings, Job, Project, ProjectError, ViewSettings, VolumeSettings,
 };
+use crate::render::Facts;
 use crate::render::develop::Metering;
 use crate::render::plan::Decision;
 use crate::scene::{Camera, flame};
@@ -33,8 +34,8 @@ pub struct Document {
     pub metering: Option<Metering>,
     /// Which effects the newest picture is computed with, and why; empty while nobody has decided.
     pub decisions: Vec<Decision>,
-    /// By how many pixels refraction moves what is behind the fire at most; `None` while nobody has measured.
-    pub largest_shift_px: Option<f64>,
+    /// What was found out about it.
+    pub facts: Facts,
     open: Option<Arc<OpenVolume>>,
     history: History<Step>,
     /// The last job that could be rendered.
@@ -81,7 +82,7 @@ impl Document {
             fixed_size: None,
             metering: None,
             decisions: Vec::new(),
-            largest_shift_px: None,
+            facts: Facts::default(),
             open: None,
             history: History::default(),
             job: None,

@@ -49,6 +49,10 @@ impl Stats<'_> {
             "rays": self.frame.rays,
             "samples": self.frame.samples,
             "plan": self.plan(),
+            "facts": {
+                "largest_shift_px": self.frame.facts.largest_shift_px.map(finite),
+                "orders_left_out": self.frame.facts.orders_left_out.map(finite),
+            },
             "flaws": self.flaws.iter().collect::<Vec<_>>(),
             "settings": self.settings(),
             "fire": self.fire(),

@@ -85,10 +85,16 @@ fn a_backdrop_lets_the_air_act_and_its_numbers_go_back_to_automatic() {
             .query_by_label_contains("acts through refraction")
             .is_none()
     );
-    harness.get_by_label("refraction moves what is behind: not yet measured");
-    harness.state_mut().document_mut().largest_shift_px = Some(1.74);
-    harness.run_steps(2);
-    harness.get_by_label("refraction moves what is behind: by at most 1.74 px");
+    settle(&mut harness);
+    harness.get_by_label_contains("refraction moves what is behind: by at most");
+    // Three times the bending, three times the shift.
+    let said = |harness: &Harness<'_, App>| harness.state().document().facts.largest_shift_px;
+    let natural = said(&harness).expect("a shift");
+    type_into(&mut harness, "Exaggeration", "3");
+    settle(&mut harness);
+    let exaggerated = said(&harness).expect("a shift");
+    assert!((exaggerated / natural / 3.0 - 1.0).abs() < 0.1, "{natural} px, then {exaggerated}");
+    type_into(&mut harness, "Exaggeration", "1");
 
     let backdrop = |harness: &Harness<'_, App>| job(harness).stage.backdrop.expect("a backdrop");
     let automatic = backdrop(&harness).distance_m;

@@ -82,7 +82,7 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, known: Known<'_>) {
         }
         .show(ui, &mut air.refraction_gain);
         if known.job.is_some_and(|job| job.flame.bending.is_some()) {
-            note(ui, &shift(known.largest_shift_px));
+            note(ui, &shift(known.facts.largest_shift_px));
         }
     });
 }

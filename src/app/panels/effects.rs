@@ -3,7 +3,7 @@
 use egui::Ui;
 
 use super::knob::{Choice, note};
-use super::{Known, section};
+use super::{Known, section, short};
 use crate::project::{Control, EffectSettings};
 use crate::render::Switch;
 
@@ -76,7 +76,18 @@ pub(super) fn show(ui: &mut Ui, effects: &mut EffectSettings, known: Known<'_>) 
             if let Some(decision) = decided {
                 let state = if decision.on { "computed" } else { "left out" };
                 note(ui, &format!("{state}: {}", decision.reason));
+                if let ("scattering", Some(share)) = (effect, known.facts.orders_left_out) {
+                    note(ui, &orders_left_out(share));
+                }
             }
         }
     });
+}
+
+/// What of the scattered light is left out, in words.
+fn orders_left_out(share: f64) -> String {
+    format!(
+        "light scattered more than once is left out: about {} % of the fire's",
+        short(100.0 * share)
+    )
 }

@@ -28,6 +28,7 @@ use super::Document;
 use super::exporter::Wish;
 use super::recent::Recent;
 use crate::project::{Control, Job, Mend, Preset, why_idle};
+use crate::render::Facts;
 use crate::render::plan::Decision;
 use crate::volume::BuiltIn;
 
@@ -98,8 +99,8 @@ struct Known<'a> {
     job: Option<&'a Job>,
     /// What its plan decided; empty while that is not known.
     decisions: &'a [Decision],
-    /// By how many pixels refraction moves what is behind at most, once it was measured.
-    largest_shift_px: Option<f64>,
+    /// What was found out about it.
+    facts: Facts,
 }
 
 impl Known<'_> {
@@ -138,12 +139,12 @@ impl Panels {
                         let recognised = document.recognised().cloned();
                         let automatic_half = document.automatic_half_saturation_cd_m2();
                         let decisions = document.decisions.clone();
-                        let largest_shift_px = document.largest_shift_px;
+                        let facts = document.facts;
                         let (project, job) = document.parts();
                         let known = Known {
                             job,
                             decisions: &decisions,
-                            largest_shift_px,
+                            facts,
                         };
                         fire::show(ui, project, known, commands);
                         view::show(ui, project, automatic_half, commands);

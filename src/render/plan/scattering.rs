@@ -8,7 +8,7 @@ use crate::scene::Scene;
 /// Share of light that is scattered below which it is left out. Each scattering takes light out of a line of sight and
 /// brings other light in, so the picture changes by less: of soot that scatters 1 % of what comes through, by about half
 /// of that, where the eye begins to see a difference side by side.
-const SEEN: f64 = 0.01;
+const SEEN: f64 = 0.015;
 /// Wavelength at which it is judged, nm: where the eye is most sensitive.
 const JUDGED_NM: f64 = 555.0;
 
