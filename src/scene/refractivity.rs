@@ -106,7 +106,7 @@ impl Refractivity {
         let [x, y, z] = voxel.map(|v| v as usize % BRICK);
         let first = slot as usize * BRICK_SAMPLES + (z * SAMPLES + y) * SAMPLES + x;
         // One border of the array for all eight corners.
-        let cell = &self.samples[first..first + LAST_CORNER + 1];
+        let cell = &self.samples[first..=first + LAST_CORNER];
         let f: [f32; 3] =
             std::array::from_fn(|axis| (position[axis] - f64::from(voxel[axis])) as f32);
         let edge = |at: usize| between(cell[at], cell[at + 1], f[0]);
