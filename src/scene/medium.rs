@@ -34,6 +34,8 @@ pub struct Medium {
     pub(crate) lattice_from_world: DAffine3,
     /// Where the field is defined, in lattice coordinates; outside is air.
     pub(crate) domain: Aabb,
+    /// From the first to the last sample of the file, in lattice coordinates: what lies beyond is not in the data.
+    pub(crate) data: Aabb,
     /// Bricks along each axis.
     pub(crate) bricks: UVec3,
     /// Index into `samples`, in units of bricks, for each brick, x fastest; [`NO_BRICK`] where there is no soot.

@@ -171,6 +171,10 @@ impl Fields<'_> {
                 min: (min - origin).as_dvec3() - reach,
                 max: (max - 1 - origin).as_dvec3() + reach,
             },
+            data: Aabb {
+                min: (min - origin).as_dvec3(),
+                max: (max - 1 - origin).as_dvec3(),
+            },
             bricks,
             table: vec![NO_BRICK; bricks.as_u64vec3().element_product() as usize],
             samples,
@@ -379,6 +383,10 @@ pub(super) fn empty() -> Medium {
     Medium {
         lattice_from_world: DAffine3::IDENTITY,
         domain: Aabb {
+            min: DVec3::ZERO,
+            max: DVec3::ZERO,
+        },
+        data: Aabb {
             min: DVec3::ZERO,
             max: DVec3::ZERO,
         },

@@ -20,7 +20,7 @@
 //!
 //! What is kept is n − 1 less that of the air around, never n: in f32 an n of 1.0002 has three digits. Gradients are
 //! trilinear between samples, so they are continuous and a bent picture is smooth; the faces of voxels are no mirrors.
-//! Where a neighbour lies outside of the domain the difference is taken to one side: where a file's box cuts hot gas off
+//! Where a neighbour lies outside of the data the difference is taken to one side: where a file's box cuts hot gas off
 //! there is no lens, only no more gas. Where no brick is there is air.
 //!
 //! **Validity.** That of the law; see [`crate::scene::Air::products_share`] for what the gas is made of.
@@ -249,13 +249,17 @@ impl<'a> Stencil<'a> {
         }
     }
 
-    /// Change of n for a voxel along an axis at sample `i` of the brick, whose place along the axis is `at`.
+    /// Change of n for a voxel along an axis at sample `i` of the brick, whose place along the axis is `at`. Where the
+    /// file's box cuts through hot gas, the cut is in the data and not in the gas: it bends nothing.
     fn slope(&self, i: usize, at: usize, axis: usize) -> f64 {
         const STRIDES: [usize; 3] = [1, SAMPLES, LAYER];
         let stride = STRIDES[axis];
         let air = 0.0;
-        let (min, max) = (self.medium.domain.min[axis], self.medium.domain.max[axis]);
+        let (min, max) = (self.medium.data.min[axis], self.medium.data.max[axis]);
         let coordinate = f64::from(self.origin[axis]) + at as f64;
+        if coordinate < min || coordinate > max {
+            return 0.0;
+        }
         let below = if coordinate - 1.0 < min {
             None
         } else if at > 0 {

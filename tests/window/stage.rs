@@ -93,7 +93,10 @@ fn a_backdrop_lets_the_air_act_and_its_numbers_go_back_to_automatic() {
     type_into(&mut harness, "Exaggeration", "3");
     settle(&mut harness);
     let exaggerated = said(&harness).expect("a shift");
-    assert!((exaggerated / natural / 3.0 - 1.0).abs() < 0.1, "{natural} px, then {exaggerated}");
+    assert!(
+        (exaggerated / natural / 3.0 - 1.0).abs() < 0.1,
+        "{natural} px, then {exaggerated}"
+    );
     type_into(&mut harness, "Exaggeration", "1");
 
     let backdrop = |harness: &Harness<'_, App>| job(harness).stage.backdrop.expect("a backdrop");
