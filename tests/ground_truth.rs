@@ -11,6 +11,7 @@ use sootlight::volume::{Border, Grid, Volume};
 
 use super::common;
 
+mod fire_light;
 mod furnace;
 mod glow;
 mod null_collision;

@@ -16,9 +16,9 @@
 //! Many spectra have one colour; this is a smooth one, between 0 and 1 everywhere, so no surface gives back more light than
 //! falls on it, and flat where the colour is grey. The borders are those with which A is nearest to the unit matrix.
 //!
-//! **Validity.** 360 to 830 nm. Under D65 and the standard observer the colour comes back exactly where c needs no holding:
-//! wherever no channel is below 2 % of the largest; the worst of all, the pure primaries, are 1 % of white off (a test says
-//! so).
+//! **Validity.** 360 to 830 nm. Under D65 and the standard observer the colour comes back within 0.2 % of its largest
+//! channel where c needs no holding: wherever no channel is below 2 % of the largest; the worst of all, the pure
+//! primaries, are 1 % of white off (tests say so).
 //!
 //! **Source.** Own choice of lobes; the idea of a basis that sums to one is that of B. Smits, J. Graphics Tools 4(4) (1999)
 //! 11, and I. Mallett and C. Yuksel, EGSR 2019.

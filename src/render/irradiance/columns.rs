@@ -35,6 +35,7 @@ impl Columns {
             flame: flame.clone(),
             bricks: cells.dense.chunks_exact(count).map(mean).collect(),
             cells: Cells {
+                dense_where_bright: Vec::new(),
                 power: Vec::new(),
                 growth: Vec::new(),
                 spots: Vec::new(),

@@ -1,15 +1,18 @@
 //! How much of each light gets out of the fire, direction by direction.
 //!
-//! For a direction ω the medium is cut by parallel lines, a cell's edge apart. Each is followed from outside into the
+//! For a direction ω the medium is cut by parallel lines, a cell's edge or two apart. Each is followed from outside into the
 //! fire, against ω, in steps of a cell's edge; a step in a cell of power J and column Δu, behind a column u, sends out
 //!
 //! ```text
-//! J e^{−κu} (1 − e^{−κΔu})/(κΔu)         soot, radicals
+//! J e^{−κu} (1 − e^{−κΔu'})/(κΔu')       soot, radicals
 //! J (W(y₂) t₂ − W(y₁) t₁)/Δy             a line or band: what it adds, its shadow on the soot behind included
 //! ```
 //!
-//! and its share of the table's light is the sum of that over the sum of J. Every place is met about once for each
-//! direction, so a table says what a march along those lines would, to the accuracy of cells as steps.
+//! and its share of the table's light is the sum of that over the sum of J. Δu' is the column where the cell is bright: of
+//! thin sheets the light comes from where the soot is dense, and meets more of it than the cell's mean. With lines a cell's
+//! edge apart every place is met about once for each direction, so a table says what a march along them would, to the
+//! accuracy of cells as steps; with fewer lines and more directions the noise of the single table grows, but a point
+//! sees many tables.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -32,8 +35,12 @@ use crate::render::walk::for_each_stretch;
 use crate::scene::glow::Growth;
 use crate::scene::medium::{BRICK, Medium};
 
-/// Optical depth of a step below which its mean transmittance is the mean of its ends': off by τ²/12, a millionth.
-const THIN: f32 = 4e-3;
+/// Optical depth below which no step is divided by.
+const THIN: f32 = 1e-3;
+
+/// By how much the lattice of lines is turned about its direction, rad: so that it is at no angle with a simple ratio to
+/// the cells', and lines along an axis that are two cells apart do not all miss the same ones.
+const TURN: f64 = 0.553_574_358_897_045_2;
 
 /// What gets out of each node that has a table.
 #[derive(Debug)]
@@ -56,6 +63,7 @@ impl Escape {
         cells: &Cells,
         tree: &Tree,
         directions: Directions,
+        apart: f64,
         cancel: &Cancel,
     ) -> Option<Self> {
         let blocks = channels.blocks();
@@ -71,6 +79,7 @@ impl Escape {
                     cells,
                     tree,
                     outwards: directions.get(i),
+                    apart,
                 })
             })
             .collect();
@@ -172,6 +181,8 @@ struct Follow<'a> {
     cells: &'a Cells,
     tree: &'a Tree,
     outwards: DVec3,
+    /// Between two lines, in cells' edges.
+    apart: f64,
 }
 
 impl Kernel for Follow<'_> {
@@ -194,20 +205,30 @@ impl Kernel for Follow<'_> {
         let inwards = inwards * metres;
         let hull = self.hull();
         let (u, v) = inwards.any_orthonormal_pair();
+        let (u, v) = (
+            TURN.cos() * u + TURN.sin() * v,
+            TURN.cos() * v - TURN.sin() * u,
+        );
         let edge = self.cells.edge();
-        let range = |axis: DVec3| {
-            let along = hull.corners().map(|corner| corner.dot(axis) / edge);
+        let range = |axis: DVec3, apart: f64| {
+            let along = hull
+                .corners()
+                .map(|corner| corner.dot(axis) / (edge * apart));
             let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
                 [low.min(at), high.max(at)]
             });
             (low.floor() as i64, high.ceil() as i64)
         };
-        let ((u0, u1), (v0, v1), (w0, _)) = (range(u), range(v), range(inwards));
+        let ((u0, u1), (v0, v1), (w0, _)) = (
+            range(u, self.apart),
+            range(v, self.apart),
+            range(inwards, 1.0),
+        );
         for i in u0..u1 {
             for j in v0..v1 {
                 let aside = (i as f64 + 0.5) * u + (j as f64 + 0.5) * v;
                 let ray = Ray {
-                    origin: edge * (aside + w0 as f64 * inwards),
+                    origin: edge * (self.apart * aside + w0 as f64 * inwards),
                     direction: inwards,
                 };
                 self.follow(&ray, &hull, edge * metres, &mut sums);
@@ -239,6 +260,7 @@ impl Follow<'_> {
         let blocks = self.channels.blocks();
         let edge = self.cells.edge();
         let mut column = [0.0_f32; 2];
+        let mut way = Way::new(blocks);
         let mut lines = Lines::new(self.channels.thermal.len());
         for_each_stretch(self.medium, ray, [enter, exit], |stretch| {
             let first = (stretch.from / edge - 0.5).ceil();
@@ -248,21 +270,24 @@ impl Follow<'_> {
                 let position = ray.at((step + 0.5) * edge);
                 step += 1.0;
                 let cell = self.cells.cell_at(stretch.slot, position);
-                let dense = self.cells.dense[cell];
-                let added = dense.map(|dense| dense * step_m as f32);
+                let added = self.cells.dense[cell].map(|dense| dense * step_m as f32);
                 let table = self.tree.table_of_cell[cell];
-                if table != u32::MAX {
+                if table == u32::MAX {
+                    way.wait(added);
+                } else {
+                    let own =
+                        self.cells.dense_where_bright[cell].map(|dense| dense * step_m as f32);
                     for block in 0..blocks {
                         let at = table as usize * blocks + block;
                         let power = &self.cells.power[cell * blocks + block];
-                        let share =
-                            mean_transmittance(&self.channels.extinction[block], column, added);
+                        let share = way.step(block, &self.channels.extinction[block], added, own);
                         let (out, all) = (&mut sums.out[at], &mut sums.all[at]);
                         for k in 0..BLOCK {
                             all[k] += power[k];
                             out[k] += power[k] * share[k];
                         }
                     }
+                    way.arrive();
                     if !self.channels.thermal.is_empty() {
                         self.grow(
                             cell,
@@ -306,7 +331,11 @@ impl Follow<'_> {
             } * lanes::exp(-tau);
             if depth > 0.0 {
                 let power = self.cells.power[cell * blocks + block][k];
-                let thin = power * mean_transmittance(extinction, column, added)[k];
+                // What the step without lines has added already.
+                let own = self.cells.dense_where_bright[cell].map(|dense| dense * step_m);
+                let before = extinction[0][k] * column[0] + extinction[1][k] * column[1];
+                let inside = extinction[0][k] * own[0] + extinction[1][k] * own[1];
+                let thin = power * lanes::exp(-before) * mean_over_step(inside);
                 let grown = power * (width - lines.width[i]) / depth;
                 sums.out[table * blocks + block][k] += grown - thin;
                 let line = &mut sums.lines[i];
@@ -332,18 +361,71 @@ impl Lines {
     }
 }
 
-/// Mean over a step of the transmittance to outside, for one block of channels.
-#[inline(always)]
-fn mean_transmittance(extinction: &[Block; 2], column: [f32; 2], added: [f32; 2]) -> Block {
-    let mut mean = [0.0; BLOCK];
-    for k in 0..BLOCK {
-        let tau = extinction[0][k] * column[0] + extinction[1][k] * column[1];
-        let own = extinction[0][k] * added[0] + extinction[1][k] * added[1];
-        let before = lanes::exp(-tau);
-        let absorbed = -lanes::exp_m1(-own);
-        let thick = absorbed / own.max(THIN);
-        let thin = 1.0 - 0.5 * absorbed;
-        mean[k] = before * if own > THIN { thick } else { thin };
+/// The transmittance to outside along a line.
+struct Way {
+    /// Of each block, without what waits.
+    before: Vec<Block>,
+    /// Column of dark cells since.
+    waiting: [f32; 2],
+}
+
+impl Way {
+    fn new(blocks: usize) -> Self {
+        Self {
+            before: vec![[1.0; BLOCK]; blocks],
+            waiting: [0.0; 2],
+        }
     }
-    mean
+
+    /// Passes a column that sends nothing out.
+    #[inline(always)]
+    fn wait(&mut self, added: [f32; 2]) {
+        self.waiting = [self.waiting[0] + added[0], self.waiting[1] + added[1]];
+    }
+
+    /// Says that all blocks have passed what waited.
+    #[inline(always)]
+    fn arrive(&mut self) {
+        self.waiting = [0.0; 2];
+    }
+
+    /// Mean transmittance from a step to outside for a block of channels, whose own column is `own` where it is bright and
+    /// `added` as a whole.
+    #[inline(always)]
+    fn step(
+        &mut self,
+        block: usize,
+        extinction: &[Block; 2],
+        added: [f32; 2],
+        own: [f32; 2],
+    ) -> Block {
+        let before = &mut self.before[block];
+        let mut mean = [0.0; BLOCK];
+        if self.waiting != [0.0; 2] {
+            for k in 0..BLOCK {
+                before[k] *= lanes::exp(-depth(extinction, self.waiting, k));
+            }
+        }
+        for k in 0..BLOCK {
+            let inside = depth(extinction, own, k);
+            mean[k] = before[k] * mean_over_step(inside);
+            before[k] *= lanes::exp(-depth(extinction, added, k));
+        }
+        mean
+    }
+}
+
+/// Optical depth of a column at one channel.
+#[inline(always)]
+fn depth(extinction: &[Block; 2], column: [f32; 2], k: usize) -> f32 {
+    extinction[0][k] * column[0] + extinction[1][k] * column[1]
+}
+
+/// Mean over a step of the transmittance to its end, φ₁(τ) = (1 − e^{−τ})/τ: Padé's fraction of the second degree, within
+/// 0.2 % up to τ = 2, and 1/τ where that is less, within 4 % at worst, at 3.6.
+#[inline(always)]
+fn mean_over_step(depth: f32) -> f32 {
+    let numerator = 1.0 + depth * (depth * (1.0 / 60.0) - 0.1);
+    let denominator = 1.0 + depth * (depth * 0.05 + 0.4);
+    (numerator / denominator).min(1.0 / depth.max(THIN))
 }

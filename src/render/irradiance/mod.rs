@@ -53,7 +53,7 @@ mod directions;
 mod escape;
 mod tree;
 
-use cells::{Cells, Fineness};
+use cells::{Cells, Fineness, Rule};
 use channels::{BLOCK, Block, Channels};
 use columns::Columns;
 use directions::Directions;
@@ -69,10 +69,12 @@ const MOST_OPEN: usize = 7 * 22 + 1;
 #[derive(Debug, Clone, Copy)]
 struct Effort {
     finest: Fineness,
-    /// Most points of the midpoint rule.
+    /// Most points at which the medium is asked.
     points: usize,
     /// Squares along the side of the set of directions.
     squares: usize,
+    /// Between two parallel lines, in cells' edges.
+    apart: f64,
     /// Most steps of all lines of all directions.
     steps: usize,
     /// How large a node's ball may look to be one light: radius over distance. First of cells and bricks, then of what is
@@ -87,11 +89,12 @@ impl Effort {
         match level {
             Level::Coarse => Self {
                 finest: Fineness {
-                    cells: 4,
-                    points: 4,
+                    cells: 2,
+                    rule: Rule::Simpson,
                 },
-                points: 200_000,
-                squares: 4,
+                points: 500_000,
+                squares: 6,
+                apart: 1.0,
                 steps: 1_000_000,
                 opening: [0.4, 0.2],
                 table_blocks: 200_000,
@@ -99,13 +102,14 @@ impl Effort {
             Level::Fine => Self {
                 finest: Fineness {
                     cells: 4,
-                    points: 16,
+                    rule: Rule::Gauss,
                 },
                 points: 16_000_000,
-                squares: 24,
+                squares: 40,
+                apart: 1.5,
                 steps: 60_000_000,
-                opening: [0.35, 0.12],
-                table_blocks: 2_000_000,
+                opening: [0.3, 0.08],
+                table_blocks: 3_000_000,
             },
         }
     }
@@ -114,15 +118,16 @@ impl Effort {
     fn fineness(&self, bricks: usize, directions: usize) -> Fineness {
         let Fineness {
             mut cells,
-            mut points,
+            mut rule,
         } = self.finest;
-        while cells > 1 && bricks * cells.pow(3) * directions > self.steps {
+        let steps = |cells: usize| (bricks * cells.pow(3) * directions) as f64 / self.apart.powi(2);
+        while cells > 1 && steps(cells) > self.steps as f64 {
             cells /= 2;
         }
-        while points > 4 && bricks * points.pow(3) > self.points {
-            points /= 2;
+        while rule != Rule::Samples && bricks * rule.points() > self.points {
+            rule = rule.coarser();
         }
-        Fineness { cells, points }
+        Fineness { cells, rule }
     }
 }
 
@@ -159,7 +164,15 @@ impl FireLight {
         let blocks = channels.blocks();
         let most_tables = effort.table_blocks / (directions.len() * blocks);
         let tree = Tree::new(&cells, blocks, most_tables);
-        let escape = Escape::new(medium, &channels, &cells, &tree, directions, cancel)?;
+        let escape = Escape::new(
+            medium,
+            &channels,
+            &cells,
+            &tree,
+            directions,
+            effort.apart,
+            cancel,
+        )?;
         let mut alone = vec![[1.0; BLOCK]; blocks];
         for (thermal, share) in channels.thermal.iter().zip(&escape.thermal_share) {
             alone[thermal.channel / BLOCK][thermal.channel % BLOCK] = *share;

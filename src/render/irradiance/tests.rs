@@ -17,7 +17,6 @@ use crate::volume::{
 
 mod far;
 mod near;
-mod reference;
 
 /// A flame of a volume whose fields are physical and in metres.
 pub(super) fn flame(volume: Volume) -> Flame {
@@ -151,7 +150,7 @@ pub(super) fn marched_irradiance(
         },
         ..scene.clone()
     };
-    let marcher = Marcher::new(&scene, plan, 0.5).unwrap();
+    let marcher = Marcher::new(&scene, plan, 0.25).unwrap();
     let [width, height] = plan.tables.size;
     let side = 2.0 * (0.5 * fov_deg).to_radians().tan() / f64::from(height);
     let view = scene.camera.view(plan.tables.size).unwrap();

@@ -37,33 +37,38 @@ fn box_of(scene: &Scene) -> (DVec3, f64) {
     (centre, size)
 }
 
+/// The most that any node may be off, for each level, from afar and from one size or less. The march itself, with 256²
+/// rays, is right to 0.3 % from there. Coarse light is for the first passes of a window.
+const MOST: [(Level, [f64; 2]); 2] = [(Level::Coarse, [0.15, 0.22]), (Level::Fine, [0.015, 0.03])];
+
 #[test]
 fn it_is_what_the_march_sees_from_the_same_point() {
     for (name, scene) in fires() {
         let plan = plan(&scene);
         let (centre, size) = box_of(&scene);
-        // Coarse is for the first passes of a window: four directions for a quarter turn miss what is thin.
-        for (level, most) in [(Level::Coarse, 0.8), (Level::Fine, 0.04)] {
-            let light = light(&scene, &plan, level);
-            for (direction, distance) in [
-                (DVec3::new(1.0, 0.0, 0.0), 30.0),
-                (DVec3::new(0.3, 0.2, 0.93), 30.0),
-                (DVec3::new(0.48, -0.8, 0.36), 3.0),
-                (DVec3::new(0.3, 0.2, 0.93), 1.0),
-                (DVec3::new(-0.6, 0.5, -0.62), 1.0),
-                (DVec3::new(0.7, -0.3, -0.4), 0.6),
-            ] {
-                let direction = direction.normalize();
-                let place = [centre + distance * size * direction, -direction];
-                let ours = irradiance(&light, &plan, &Stage::default(), place);
-                let wide = if distance > 2.0 { 0.9 } else { 1.8 };
-                let fov_deg = 2.0 * (wide / distance).atan().to_degrees();
-                let marched = marched_irradiance(&scene, &plan, place, fov_deg);
+        let lights = MOST.map(|(level, most)| (light(&scene, &plan, level), level, most));
+        // None along an axis: there all rays would meet the voxels at the same places.
+        for (direction, distance) in [
+            (DVec3::new(0.9, 0.37, -0.2), 30.0),
+            (DVec3::new(0.3, 0.2, 0.93), 30.0),
+            (DVec3::new(0.48, -0.8, 0.36), 3.0),
+            (DVec3::new(0.3, 0.2, 0.93), 1.0),
+            (DVec3::new(-0.6, 0.5, -0.62), 1.0),
+            (DVec3::new(0.7, -0.3, -0.4), 0.6),
+        ] {
+            let direction = direction.normalize();
+            let place = [centre + distance * size * direction, -direction];
+            let wide = if distance > 2.0 { 0.9 } else { 1.8 };
+            let fov_deg = 2.0 * f64::atan(wide / distance).to_degrees();
+            let marched = marched_irradiance(&scene, &plan, place, fov_deg);
+            for (light, level, most) in &lights {
+                let ours = irradiance(light, &plan, &Stage::default(), place);
                 let off = off(&ours, &marched);
                 println!(
                     "{name} {level:?} from {distance} sizes: {:.2} %",
                     100.0 * off
                 );
+                let most = most[usize::from(distance <= 1.0)];
                 assert!(off < most, "{name} {level:?} from {distance} sizes: {off}");
             }
         }
