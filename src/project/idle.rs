@@ -61,7 +61,7 @@ fn without(effect: &str, switch: Switch, decisions: &[Decision], nothing: &str) 
     let decided = decisions.iter().find(|it| it.effect == effect && !it.on);
     match (switch, decided) {
         (Switch::Off, _) => format!("{effect}, which is off: switch it on under Effects"),
-        (_, Some(decision)) => format!("{effect}, which is not computed: {}", decision.reason),
+        (_, Some(_)) => format!("{effect}, which is left out here: Effects says why"),
         _ => format!("{effect}; {nothing}"),
     }
 }
@@ -105,7 +105,8 @@ fn words(job: &Job, flame: &FlameParams, control: Control, decisions: &[Decision
     };
     let refraction = || {
         let nothing = "nothing behind the fire shows it: add a backdrop or a stage";
-        without("refraction", effects.refraction, decisions, nothing)
+        // Nothing else keeps the plan from it.
+        without("refraction", effects.refraction, &[], nothing)
     };
     let words: &str = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {

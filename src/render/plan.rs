@@ -225,6 +225,9 @@ fn decisions(scene: &Scene, features: &[Feature], effects: Effects) -> Vec<Decis
             Switch::On => decision(REFRACTION, true, ASKED_FOR),
         },
         match scene.flame.bending() {
+            _ if effects.dispersion == Switch::Off => {
+                decision(DISPERSION, false, "effects.dispersion is off")
+            }
             Some(bending) if bending.bending.dispersion => decision(DISPERSION, true, ASKED_FOR),
             _ => decision(
                 DISPERSION,

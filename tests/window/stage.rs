@@ -4,7 +4,6 @@ use egui::{Key, Modifiers};
 use sootlight::physics::moist_air::Edition;
 use sootlight::project::BackdropKind;
 use sootlight::render::Switch;
-use sootlight::render::plan::Decision;
 use sootlight::scene::stage::Pattern;
 
 use super::controls::{choose, job, tall_window, type_into};
@@ -80,12 +79,12 @@ fn a_backdrop_lets_the_air_act_and_its_numbers_go_back_to_automatic() {
     let mut harness = tall_window(Project::default());
     harness.get_by_label_contains("pressure acts through refraction");
     choose(&mut harness, "Backdrop", "Checker");
+    settle(&mut harness);
     assert!(
         harness
             .query_by_label_contains("acts through refraction")
             .is_none()
     );
-    settle(&mut harness);
     harness.get_by_label_contains("refraction moves what is behind: by at most");
     // Three times the bending, three times the shift.
     let said = |harness: &Harness<'_, App>| harness.state().document().facts.largest_shift_px;
@@ -165,13 +164,8 @@ fn effects_are_switched_and_what_needs_them_says_so() {
         assert_eq!(read(job(&harness).settings.effects), Switch::On, "{label}");
     }
     assert!(job(&harness).flame.bending.expect("asked for").dispersion);
-    harness.state_mut().document_mut().decisions = vec![Decision {
-        effect: "fire_light",
-        on: false,
-        reason: "there is no stage".into(),
-    }];
-    harness.run_steps(2);
-    harness.get_by_label("left out: there is no stage");
+    settle(&mut harness);
+    harness.get_by_label("left out: there is nothing that it could fall on");
 }
 
 #[test]
