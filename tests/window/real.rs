@@ -132,7 +132,8 @@ fn a_dropped_fire_is_changed_by_a_slider_and_exported() {
         step mousemove {to} {y}
         step mouseup 1
         step key ctrl+e
-        sleep 0.5
+        # The window of the export finds its size and its place in some frames, which a busy machine draws slowly.
+        sleep 3
         step mousemove {} {}
         step click 1
         step key ctrl+a
