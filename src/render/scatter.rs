@@ -59,14 +59,14 @@ struct Effort {
     directions: usize,
 }
 
-/// For the window's first passes: 10 to 20 ms on two cores. Weighted by what it adds to the picture, J is 0 to 3 % low on
+/// For the window's first passes: 5 to 20 ms on two cores. Weighted by what it adds to the picture, J is 0 to 3 % low on
 /// real fires; single places are off by 5 to 13 %, root mean square.
 const COARSE: Effort = Effort {
     cells: 30_000,
     directions: 16,
 };
 
-/// For a picture: 0.4 to 1 s on two cores. J is within 1 % on average; single places are off by 2 to 4 %, mostly for want of
+/// For a picture: 0.2 to 0.8 s on two cores. J is within 1 % on average; single places are off by 2 to 4 %, mostly for want of
 /// directions, of which twice as many would halve that on smooth fires. Where cells are as small as voxels, what is left of
 /// sheets thinner than them is in [`super::own_light`].
 const FINE: Effort = Effort {
@@ -181,7 +181,9 @@ impl InScatter {
     #[inline(always)]
     pub(super) fn read(&self, position: [f64; 3], lane: usize, light: &mut [Lanes]) {
         if self.light.is_empty() {
-            light.iter_mut().for_each(|light| light[lane] = 0.0);
+            for light in light {
+                light[lane] = 0.0;
+            }
             return;
         }
         // Between the middles of eight cells; beyond the outermost middles as there.

@@ -1,5 +1,10 @@
 //! Tests of the light that is scattered once.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test says how near it came, and that it was skipped"
+)]
 
 use std::path::PathBuf;
 use std::sync::Arc;
