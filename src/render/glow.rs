@@ -13,6 +13,7 @@
 //! do not absorb: j t φ₁(τ) Δs.
 
 use super::growth::{FIT, GrowthFit, curve_of_growth_f32};
+use super::own_light::own_light;
 use crate::math::lanes::{self, LANES, Lanes};
 use crate::physics::blackbody;
 use crate::scene::Flame;
@@ -230,12 +231,14 @@ impl GlowLight {
     }
 
     /// Adds what a step gives. `around` is the fire's light of each feature from all sides, as it is scattered towards the
-    /// eye; it is read where `SCATTER` is.
+    /// eye, less that of the place itself, which [`own_light`] finds for a reach of `reach_m`; both are read where
+    /// `SCATTER` is.
     #[inline(always)]
     pub(super) fn step<const SCATTER: bool>(
         &mut self,
         table: &GlowTable,
         step: &Step,
+        reach_m: f32,
         around: &[Lanes],
     ) {
         let vapour = vapour(table.dilution, &step.inverse_temperature);
@@ -277,7 +280,9 @@ impl GlowLight {
                 let phi = if tau > 1e-12 { absorbed / tau } else { 1.0 };
                 let mut emitted = feature.emission * step.flame[lane] * step.length[lane];
                 if SCATTER {
-                    emitted += feature.dimming.scattered(column, smoke) * around[i][lane];
+                    let own = own_light(emitted, tau, step.length[lane], reach_m);
+                    let around = (around[i][lane] + own).max(0.0);
+                    emitted += feature.dimming.scattered(column, smoke) * around;
                 }
                 light[lane] += transmittance[lane] * emitted * phi;
                 transmittance[lane] -= transmittance[lane] * absorbed;

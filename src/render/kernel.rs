@@ -11,6 +11,7 @@
 use super::chord::Chord;
 use super::glow::{GlowLight, MAX_FEATURES, Step};
 use super::lookup::lookup;
+use super::own_light::own_light;
 use super::scatter::InScatter;
 use super::tables::{MAX_NODES, Node, Tables};
 use crate::math::lanes::{self, Kernel, LANES, Lanes};
@@ -123,6 +124,7 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
         let Self(march) = self;
         let (nodes, glow_table) = (&march.tables.nodes[..], &march.tables.glow);
         let opaque = march.tables.opaque_column_m;
+        let reach_m = march.scatter.map_or(0.0, InScatter::reach_m);
         let mut light = Light::none();
         let mut glow = GlowLight::new();
         let mut around: Around = [[0.0; LANES]; MAX_NODES + MAX_FEATURES];
@@ -143,7 +145,7 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
             for (n, node) in nodes.iter().enumerate() {
                 let (transmittance, radiance) = (&mut transmittance[n], &mut block_radiance[n]);
                 if SCATTER {
-                    scattering_step(node, &step, &around[n], transmittance, radiance);
+                    scattering_step(node, &step, reach_m, &around[n], transmittance, radiance);
                 } else {
                     step_of(node, &step, transmittance, radiance);
                 }
@@ -157,7 +159,7 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
                 }
             }
             if GAS {
-                glow.step::<SCATTER>(glow_table, &step, &around[nodes.len()..]);
+                glow.step::<SCATTER>(glow_table, &step, reach_m, &around[nodes.len()..]);
             }
 
             since_flush += 1;
@@ -223,6 +225,7 @@ fn step_of(node: &Node, step: &Step, transmittance: &mut Lanes, radiance: &mut L
 fn scattering_step(
     node: &Node,
     step: &Step,
+    reach_m: f32,
     around: &Lanes,
     transmittance: &mut Lanes,
     radiance: &mut Lanes,
@@ -237,7 +240,9 @@ fn scattering_step(
         let tau = absorbing + scattering;
         let taken = -lanes::exp_m1(-tau);
         let phi = if tau > 1e-12 { taken / tau } else { 1.0 };
-        let source = absorbing * planck + scattering * around[lane];
+        let emitted = absorbing * planck;
+        let own = own_light(emitted, tau, step.length[lane], reach_m);
+        let source = emitted + scattering * (around[lane] + own).max(0.0);
         radiance[lane] += transmittance[lane] * source * phi;
         transmittance[lane] -= transmittance[lane] * taken;
     }
@@ -300,8 +305,9 @@ impl Walk {
             let length = march.step_m * share;
             taken.column[lane] = soot * length;
             taken.inverse_temperature[lane] = 1.0 / temperature;
+            taken.length[lane] = length;
             if GAS {
-                (taken.flame[lane], taken.length[lane]) = (burning, length);
+                taken.flame[lane] = burning;
             }
             if SCATTER {
                 taken.smoke[lane] = smoke * length;

@@ -31,6 +31,7 @@ mod level;
 mod lookup;
 pub mod march;
 pub mod null_collision;
+mod own_light;
 pub mod pass;
 pub mod plan;
 pub mod probe;

@@ -15,8 +15,8 @@
 //! is left, so that emission is integrated along all of the flight and not only where light happens to be absorbed;
 //! then the weight loses the share σ_a/μ, and a random number decides whether the path scatters or goes on as if
 //! nothing had been there. Any rate gives the right mean (Novák et al. 2014), so it is raised where the brick may glow:
-//! a flight spends [`Params::emission_points`] collisions more in proportion to the glow of what it crosses. Bricks
-//! in which nothing shows are jumped over.
+//! a flight spends [`Params::emission_points`] collisions more in proportion to the glow of what it crosses, and
+//! [`Params::scattering_points`] in proportion to its extinction. Bricks in which nothing shows are jumped over.
 //!
 //! *Wavelengths.* All of them travel on one path. The decisions are made with the optics of one, chosen evenly, and
 //! each wavelength's light is divided by the mean over all choices of the probability of what happened: the balance

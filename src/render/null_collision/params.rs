@@ -13,6 +13,9 @@ pub struct Params {
     /// How often light may have been scattered before it reaches the eye. What is scattered once more is lost, so each
     /// order adds to the picture; 0 shows the flame dimmed by scattering as well as by absorption.
     pub max_bounces: u32,
+    /// How often light must have been scattered before it reaches the eye to be counted: with 0 all is, with 2 what a
+    /// picture of light scattered once leaves out. Nothing where it exceeds `max_bounces`.
+    pub min_bounces: u32,
     /// How often light may have been reflected by the surfaces of the stage. 1 shows them in the fire's own light; with 0
     /// they are black, and so is what would be reflected once more.
     pub max_reflections: u32,
@@ -21,6 +24,10 @@ pub struct Params {
     /// Collisions that each flight spends where the medium glows, beyond those that extinction asks for: more make a
     /// path dearer and its light less noisy. 0 or more.
     pub emission_points: f64,
+    /// The same in proportion to extinction, on flights that may still be scattered, which about two in five of them then
+    /// are, however thin the medium. Without, light that is rarely scattered is rarely seen, and the few paths that see it
+    /// do not show how uncertain their mean is. 0 or more; with 0 light is scattered as often as in nature.
+    pub scattering_points: f64,
 }
 
 impl Default for Params {
@@ -29,9 +36,11 @@ impl Default for Params {
             scattering: Scattering::Off,
             phase: HenyeyGreenstein::ISOTROPIC,
             max_bounces: u32::MAX,
+            min_bounces: 0,
             max_reflections: 1,
             environment: Environment::Dark,
             emission_points: 16.0,
+            scattering_points: 0.0,
         }
     }
 }

@@ -20,15 +20,22 @@ use super::surfaces::{self, Surfaces};
 /// A path whose heaviest weight is below this plays roulette for going on.
 const ROULETTE: f64 = 1e-3;
 
+/// Scatterings for each flight that [`Params::scattering_points`] see to: e^{−1/2} of all flights stay unscattered.
+const SCATTERED: f64 = 0.5;
+
 /// Follows paths through one flame.
 pub(super) struct Tracer<'a> {
     medium: &'a Medium,
     optics: Optics,
     bounds: Vec<Bounds>,
     max_bounces: u32,
+    min_bounces: u32,
     /// Spectral radiance of the surroundings at each wavelength.
     environment: Vec<f64>,
     emission_points: f64,
+    scattering_points: f64,
+    /// Least probability of scattering at a collision where there is any.
+    least_odds: f64,
     surfaces: Surfaces<'a>,
 }
 
@@ -55,8 +62,16 @@ impl<'a> Tracer<'a> {
             } else {
                 0
             },
+            min_bounces: params.min_bounces,
             environment: wavelengths.nodes_nm.iter().map(shine).collect(),
             emission_points: params.emission_points.max(0.0),
+            scattering_points: params.scattering_points.max(0.0),
+            least_odds: if params.scattering_points > 0.0 {
+                let points = params.emission_points.max(0.0) + params.scattering_points;
+                SCATTERED / points.max(1.0)
+            } else {
+                0.0
+            },
             surfaces: Surfaces::new(&scene.stage, params.max_reflections),
             optics,
         }
@@ -74,6 +89,7 @@ impl<'a> Tracer<'a> {
         let mut light = Light {
             weights: Weights::new(count),
             hero: ((random.uniform() * count as f64) as usize).min(count.saturating_sub(1)),
+            counts: self.min_bounces == 0,
             radiance,
         };
         let mut ray = *ray;
@@ -98,14 +114,17 @@ impl<'a> Tracer<'a> {
                         ray = surfaces::reflected(&wall, random);
                         continue;
                     }
-                    let share = light.weights.share;
-                    for (n, shine) in self.environment.iter().enumerate() {
-                        light.radiance[n] += light.weights.value[n] * share * shine;
+                    if light.counts {
+                        let share = light.weights.share;
+                        for (n, shine) in self.environment.iter().enumerate() {
+                            light.radiance[n] += light.weights.value[n] * share * shine;
+                        }
                     }
                     return;
                 }
                 Flight::Scattered(distance) => {
                     bounces += 1;
+                    light.counts = bounces >= self.min_bounces;
                     let phase = self.optics.phase(light.hero);
                     let (direction, cosine) = turned(ray.direction, phase, random);
                     light.weights.turn(&self.optics, light.hero, cosine);
@@ -134,10 +153,17 @@ impl<'a> Tracer<'a> {
             return Flight::Escaped;
         };
         bricks::stretches(self.medium, &local, range, stretches);
-        let points_per_glow = self.points_per_glow(stretches);
+        let glow = |bounds: &Bounds| bounds.glow;
+        let points_per_glow = self.points_per(self.emission_points, glow, stretches);
+        let points_per_depth = if may_scatter {
+            let extinction = |bounds: &Bounds| bounds.extinction;
+            self.points_per(self.scattering_points, extinction, stretches)
+        } else {
+            0.0
+        };
         for stretch in &*stretches {
             let bounds = self.bounds[stretch.slot as usize];
-            let rate = bounds.extinction + points_per_glow * bounds.glow;
+            let rate = bounds.extinction * (1.0 + points_per_depth) + points_per_glow * bounds.glow;
             if rate <= 0.0 {
                 continue;
             }
@@ -153,7 +179,8 @@ impl<'a> Tracer<'a> {
                     continue;
                 }
                 let scattered = if may_scatter {
-                    light.collide(&self.optics, &place, rate, random.uniform())
+                    let decision = random.uniform();
+                    light.collide(&self.optics, &place, rate, self.least_odds, decision)
                 } else {
                     light.pass(&self.optics, &place, rate);
                     false
@@ -190,14 +217,14 @@ impl<'a> Tracer<'a> {
         self.optics.len()
     }
 
-    /// By how much a unit of glow raises the rate of collisions, so that the flight has its emission points; 0 where
-    /// nothing glows.
-    fn points_per_glow(&self, stretches: &[Stretch]) -> f64 {
-        let glow: f64 = stretches
+    /// By how much a unit of `what` raises the rate of collisions, so that the flight has so many points more; 0 where
+    /// there is nothing of it.
+    fn points_per(&self, points: f64, what: impl Fn(&Bounds) -> f64, stretches: &[Stretch]) -> f64 {
+        let all: f64 = stretches
             .iter()
-            .map(|stretch| self.bounds[stretch.slot as usize].glow * (stretch.to - stretch.from))
+            .map(|stretch| what(&self.bounds[stretch.slot as usize]) * (stretch.to - stretch.from))
             .sum();
-        let points = self.emission_points / glow;
+        let points = points / all;
         if points.is_finite() { points } else { 0.0 }
     }
 }
@@ -207,19 +234,30 @@ struct Light<'a> {
     weights: Weights,
     /// The wavelength that decides.
     hero: usize,
+    /// Whether what is met now has been scattered often enough on its way to the eye.
+    counts: bool,
     radiance: &'a mut [f64],
 }
 
 impl Light<'_> {
     /// A collision at which light may scatter; `decision` is a number in 0..1. Returns whether it does.
-    fn collide(&mut self, optics: &Optics, place: &Place, rate: f64, decision: f64) -> bool {
-        let scattered = decision < odds(&optics.local(self.hero, place), rate);
+    fn collide(
+        &mut self,
+        optics: &Optics,
+        place: &Place,
+        rate: f64,
+        least_odds: f64,
+        decision: f64,
+    ) -> bool {
+        let scattered = decision < odds(&optics.local(self.hero, place), rate, least_odds);
         let share = self.weights.share;
         for n in 0..optics.len() {
             let local = optics.local(n, place);
             let (value, density) = (&mut self.weights.value[n], &mut self.weights.density[n]);
-            self.radiance[n] += *value * share * local.emission / rate;
-            let odds = odds(&local, rate);
+            if self.counts {
+                self.radiance[n] += *value * share * local.emission / rate;
+            }
+            let odds = odds(&local, rate, least_odds);
             if scattered {
                 *value *= local.sigma_s / rate;
                 *density *= odds;
@@ -238,18 +276,21 @@ impl Light<'_> {
         for n in 0..optics.len() {
             let local = optics.local(n, place);
             let value = &mut self.weights.value[n];
-            self.radiance[n] += *value * share * local.emission / rate;
+            if self.counts {
+                self.radiance[n] += *value * share * local.emission / rate;
+            }
             *value *= (rate - local.sigma_a - local.sigma_s) / rate;
         }
     }
 }
 
-/// Probability that a wavelength in charge scatters at a collision that does not absorb. A rate below the extinction
-/// would make the rest negative: the weights stay right, so the probability only has to be one.
-fn odds(local: &Local, rate: f64) -> f64 {
+/// Probability that a wavelength in charge scatters at a collision that does not absorb, where it does at all no less
+/// than `least`. A rate below the extinction would make the rest negative: the weights stay right, so the probability only
+/// has to be one.
+fn odds(local: &Local, rate: f64, least: f64) -> f64 {
     let null = (rate - local.sigma_a - local.sigma_s).abs();
     if local.sigma_s > 0.0 {
-        local.sigma_s / (local.sigma_s + null)
+        (local.sigma_s / (local.sigma_s + null)).max(least)
     } else {
         0.0
     }

@@ -1,5 +1,10 @@
 //! Tests of the light that is scattered once.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test says how near it came, and that it was skipped"
+)]
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,6 +17,7 @@ use crate::math::lanes::LANES;
 use crate::physics::blackbody;
 use crate::physics::soot::{Hold, SootModel};
 use crate::render::null_collision::{NullCollision, Params, Scattering};
+use crate::render::own_light::own_light;
 use crate::render::{Effects, Plan, Settings, Switch};
 use crate::scene::{
     Air, Camera, Flame, FlameParams, Fuel, GlowParams, Interpolation, Placement, ScatteringParams,
@@ -76,12 +82,28 @@ fn plan(scene: &Scene) -> Plan {
     Plan::new(scene, &settings)
 }
 
-/// J at a position of the lattice, one number for each node and feature.
-fn read(field: &InScatter, position: DVec3) -> Vec<f64> {
+/// J at a position of the lattice, one number for each node, with the place's own light.
+fn read(scene: &Scene, plan: &Plan, field: &InScatter, position: DVec3) -> Vec<f64> {
     let [nodes, silent, radicals] = field.counts;
     let mut light = vec![[0.0; LANES]; nodes + silent + radicals];
     field.read(position.to_array(), 3, &mut light);
-    light.iter().map(|light| f64::from(light[3])).collect()
+    let medium = scene.flame.medium();
+    let ([all, kelvin], smoke) = (medium.sample(position), medium.smoke(position));
+    let nodes = plan.tables.wavelengths.nodes_nm.iter().zip(&light);
+    nodes
+        .map(|(&nm, light)| {
+            let absorption = scene.flame.absorption_per_sample(nm) * all;
+            let [by_soot, by_smoke] = scene.flame.scattering_per_sample(nm);
+            let depth = absorption + by_soot * (all - smoke) + by_smoke * smoke;
+            let emitted = if all > 0.0 {
+                absorption * blackbody::spectral_radiance(nm, kelvin)
+            } else {
+                0.0
+            };
+            let own = own_light(emitted as f32, depth as f32, 1.0, field.reach_m());
+            f64::from((light[3] + own).max(0.0))
+        })
+        .collect()
 }
 
 /// An even ball of soot of this radius in voxels of 1 cm, at one temperature.
@@ -123,7 +145,7 @@ fn the_middle_of_an_even_ball_sees_its_closed_form_from_all_sides() {
         let scene = scene(ball(radius, 2e-6, 1700.0), 60.0, Some(asymmetry));
         let plan = plan(&scene);
         let field = InScatter::new(&scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
-        let found = read(&field, middle(&scene));
+        let found = read(&scene, &plan, &field, middle(&scene));
         for (i, &nm) in plan.tables.wavelengths.nodes_nm.iter().enumerate() {
             let absorbed = scene.flame.absorption_per_sample(nm) * 2e-6;
             let all = absorbed + scene.flame.scattering_per_sample(nm)[0] * 2e-6;
@@ -143,7 +165,7 @@ fn a_deep_ball_is_a_furnace_whatever_the_asymmetry() {
         let scene = scene(ball(20.0, 1e-4, 1700.0), 60.0, Some(asymmetry));
         let plan = plan(&scene);
         let field = InScatter::new(&scene, &plan.tables, Level::Coarse, &Cancel::never()).unwrap();
-        let found = read(&field, middle(&scene));
+        let found = read(&scene, &plan, &field, middle(&scene));
         for (i, &nm) in plan.tables.wavelengths.nodes_nm.iter().enumerate() {
             let absorbed = scene.flame.absorption_per_sample(nm);
             let all = absorbed + scene.flame.scattering_per_sample(nm)[0];
@@ -185,10 +207,11 @@ fn direct(scene: &Scene, nm: f64, position: DVec3, direction: DVec3, step_voxels
     light
 }
 
-/// Errors of a field against rays in 2000 directions from 40 single places in the soot, at one node: their mean and root
-/// mean square, each place weighted by what it sends to the eye, σ_s J.
+/// Errors of a field against rays in 300 directions from 400 single places in the soot, at one node: their mean and root
+/// mean square, each place weighted by what it sends to the eye, σ_s J. Of a ragged fire the brightest sixty places make
+/// up all of the sum.
 fn errors(scene: &Scene, plan: &Plan, fields: &[InScatter], asymmetry: f64) -> Vec<[f64; 2]> {
-    const PLACES: usize = 40;
+    const PLACES: usize = 400;
     let medium = scene.flame.medium();
     let phase = crate::physics::phase::HenyeyGreenstein::new(asymmetry).unwrap();
     let node = 3;
@@ -200,11 +223,11 @@ fn errors(scene: &Scene, plan: &Plan, fields: &[InScatter], asymmetry: f64) -> V
     });
     let sooty = 0.02 * f64::from(medium.peak_volume_fraction());
     let places: Vec<DVec3> = places
-        .take(1_000_000)
+        .take(10_000_000)
         .filter(|place| medium.sample(*place)[0] > sooty)
         .take(PLACES)
         .collect();
-    let all = directions(2000);
+    let all = directions(300);
     let expected: Vec<f64> = places
         .par_iter()
         .map(|&position| {
@@ -216,14 +239,15 @@ fn errors(scene: &Scene, plan: &Plan, fields: &[InScatter], asymmetry: f64) -> V
             let light = all
                 .iter()
                 .map(|&way| phase.value(way.dot(to_eye)) * direct(scene, nm, position, way, 0.25));
-            4.0 * PI / all.len() as f64 * light.sum::<f64>()
+            let weights = all.iter().map(|way| phase.value(way.dot(to_eye)));
+            light.sum::<f64>() / weights.sum::<f64>()
         })
         .collect();
     let of_field = |field: &InScatter| {
         let (mut sum, mut error, mut square) = (0.0, 0.0, 0.0);
         for (&place, expected) in places.iter().zip(&expected) {
             let weight = medium.sample(place)[0] * expected;
-            let off = read(field, place)[node] / expected - 1.0;
+            let off = read(scene, plan, field, place)[node] / expected - 1.0;
             sum += weight;
             error += weight * off;
             square += weight * off * off;
@@ -244,9 +268,9 @@ fn the_field_agrees_with_rays_in_all_directions_from_single_places() {
             panic!("two fields")
         };
         println!("g {asymmetry}: mean and rms {fine:.4?}, coarse {coarse:.4?}");
-        // What single places are off by at 32 and 16 directions; a factor or a sign that is wrong shows tenfold.
-        assert!(fine[0].abs() < 0.02 && fine[1] < 0.06, "{fine:?}");
-        assert!(coarse[0].abs() < 0.08 && coarse[1] < 0.16, "{coarse:?}");
+        // What 32 and 16 directions leave at single places; their mean is what a picture shows.
+        assert!(fine[0].abs() < 0.01 && fine[1] < 0.05, "{fine:?}");
+        assert!(coarse[0].abs() < 0.03 && coarse[1] < 0.1, "{coarse:?}");
     }
 }
 
@@ -285,10 +309,9 @@ fn what_accuracy_costs() {
             (30_000, 16),
             (30_000, 32),
             (250_000, 32),
-            (700_000, 16),
-            (700_000, 24),
+            (400_000, 32),
+            (400_000, 64),
             (700_000, 32),
-            (700_000, 64),
         ];
         let mut fields = Vec::new();
         for (cells, directions) in efforts {
@@ -338,7 +361,7 @@ fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
             .collect()
     };
     assert_eq!(bits(&one), bits(&two));
-    assert!(one.light.iter().flatten().all(|light| *light >= 0.0));
+    assert!(one.light.iter().flatten().all(|light| light.is_finite()));
     assert_eq!(
         one.orders_left_out().to_bits(),
         two.orders_left_out().to_bits()
@@ -361,7 +384,8 @@ fn no_fire_scatters_nothing() {
     let scene = scene(Volume::from_grids(vec![empty], "empty"), 40.0, None);
     let plan = plan(&scene);
     let field = InScatter::new(&scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
-    assert!(read(&field, DVec3::ONE).iter().all(|light| *light == 0.0));
+    let found = read(&scene, &plan, &field, DVec3::ONE);
+    assert!(found.iter().all(|light| *light == 0.0));
     assert_eq!(field.orders_left_out(), 0.0);
 }
 
@@ -392,7 +416,7 @@ fn marched(scene: &Scene, plan: &Plan, field: &InScatter, ray: &Ray, step_voxels
         if all <= 0.0 {
             continue;
         }
-        let scattered = read(field, at);
+        let scattered = read(scene, plan, field, at);
         for (n, &(absorption, [soot, smoke])) in laws.iter().enumerate() {
             let sigma_a = absorption * all;
             let sigma_s = soot * (all - of_smoke) + smoke * of_smoke;
@@ -412,6 +436,7 @@ fn compare(scene: &Scene, paths: u32, bounces: u32) -> (f64, [f64; 3], f64) {
     let params = Params {
         scattering: Scattering::Flame,
         max_bounces: bounces,
+        scattering_points: 8.0,
         ..Params::default()
     };
     let reference = NullCollision::new(scene, &plan.tables.wavelengths, &params);
@@ -454,7 +479,7 @@ fn a_ray_with_light_scattered_once_agrees_with_the_reference() {
     let scenes = [("torch", procedural::torch())].into_iter().chain(plume);
     for (name, volume) in scenes {
         let scene = scene(volume, 60.0, None);
-        let (worst, together, off) = compare(&scene, 2048, 1);
+        let (worst, together, off) = compare(&scene, 4096, 1);
         println!("{name}: worst {worst:.2}, together {together:.2?}, Y off {off:.5}");
         // One false alarm in a thousand of 432 and of 3 comparisons (Šidák).
         assert!(
