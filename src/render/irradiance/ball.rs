@@ -109,10 +109,8 @@ mod tests {
                 irradiance_per_power(2.0 * height, 2.0 * distance, 2.0) * 4.0,
                 by_chords(height, distance),
             );
-            println!("{height} {distance}: {ours:.4} {chords:.4}");
             worst = worst.max((ours - chords).abs());
         }
-        println!("worst: {worst:.3}");
         assert!(worst < 0.03, "{worst}");
     }
 

@@ -33,7 +33,9 @@
 //! through the cells near the point and the means of whole bricks farther off. Nodes so near that they are parts of a
 //! brick take τ₁ straight away.
 //!
-//! **Validity.** Single scattering out of the beam counts as loss. What surfaces reflect falls on no other surface.
+//! **Validity.** Single scattering out of the beam counts as loss. What surfaces reflect falls on no other surface. At the
+//! fine level it is what a march from the same point finds within 1.5 % from three sizes of a fire on, and 3 % beside it;
+//! at the coarse level within 15 % and 25 %, by half of that in luminance.
 
 use glam::DVec3;
 
@@ -51,6 +53,7 @@ mod channels;
 mod columns;
 mod directions;
 mod escape;
+mod transmittance;
 mod tree;
 
 use cells::{Cells, Fineness, Rule};

@@ -68,9 +68,9 @@ fn inside_and_on_an_even_cube_it_is_the_integral_over_its_chords() {
             let place = [at * EDGE_M, normal];
             let ours = irradiance(&light, &plan, &Stage::default(), place);
             let expected = of_even_cube(&scene, &plan, soot, place);
-            println!("{soot:e} {name}: {:.2e}", off(&ours, &expected));
-            // The densest cube's cells are up to 0.8 optical depths thick, and the corner is two cells away.
-            let most = if soot > 1e-6 { 0.12 } else { 0.05 };
+            // Found are 2.5 %, and 7.7 % for the densest in its corner, which is two cells away: they are up to 0.8
+            // optical depths thick.
+            let most = if soot > 1e-6 { 0.09 } else { 0.03 };
             assert!(off(&ours, &expected) < most, "{soot:e} {name}");
         }
     }
@@ -87,12 +87,58 @@ fn dense_soot_between_takes_its_share() {
         let place = [EDGE_M * DVec3::new(0.5, 0.5, z), DVec3::Z];
         let ours = irradiance(&light, &plan, &Stage::default(), place);
         let marched = marched_irradiance(&scene, &plan, place, 150.0);
-        println!(
-            "behind soot at {z}: {:.2e} {:.3?}",
-            off(&ours, &marched),
-            marched
-        );
-        assert!(off(&ours, &marched) < 0.06, "{z}");
+        // Found: 1.8 %, a centimetre inside.
+        assert!(off(&ours, &marched) < 0.025, "{z}");
+    }
+}
+
+/// Irradiance of a point by the march of a picture that looks at the fire, for a surface that may look elsewhere.
+fn marched_aside(
+    scene: &Scene,
+    plan: &Plan,
+    [point, normal]: [DVec3; 2],
+    target: DVec3,
+) -> Vec<f64> {
+    const FOV_DEG: f64 = 120.0;
+    let scene = Scene {
+        camera: Camera {
+            eye: point,
+            target,
+            up: DVec3::Z,
+            fov_deg: FOV_DEG,
+        },
+        ..scene.clone()
+    };
+    let marcher = Marcher::new(&scene, plan, 0.25).unwrap();
+    let [width, height] = plan.tables.size;
+    let side = 2.0 * (0.5 * FOV_DEG).to_radians().tan() / f64::from(height);
+    let view = scene.camera.view(plan.tables.size).unwrap();
+    let forward = (target - point).normalize();
+    let mut sum = vec![0.0; plan.tables.nodes.len() + plan.tables.features.len()];
+    for i in 0..width * height {
+        let at = [i % width, i / width].map(|side| f64::from(side) + 0.5);
+        let direction = view.ray(at[0], at[1]).direction;
+        let weight = side * side * direction.dot(forward).powi(3) * direction.dot(normal).max(0.0);
+        let seen = marcher.radiance(at);
+        let light = seen.radiance.iter().chain(&seen.features);
+        for (sum, light) in sum.iter_mut().zip(light) {
+            *sum += weight * light;
+        }
+    }
+    sum
+}
+
+#[test]
+fn ground_beside_the_fire_gets_what_the_march_sees_over_its_horizon() {
+    let scene = torch();
+    let plan = plan(&scene);
+    let light = light(&scene, &plan, Level::Fine);
+    for y in [-0.15, -0.2, -0.26, -0.4] {
+        let place = [DVec3::new(0.03, y, 0.0), DVec3::Z];
+        let ours = irradiance(&light, &plan, &Stage::default(), place);
+        let marched = marched_aside(&scene, &plan, place, DVec3::new(0.0, 0.0, 0.15));
+        // Found: 0.24 %.
+        assert!(off(&ours, &marched) < 0.006, "{y}");
     }
 }
 
@@ -145,7 +191,6 @@ fn a_sphere_throws_a_smooth_shadow_on_the_ground() {
         penumbra += u32::from(now > 0.01 && now < 0.99);
         before = now;
     }
-    println!("penumbra: {penumbra} of 2000 steps of 75 µm");
     assert!(penumbra > 300);
 }
 
