@@ -20,9 +20,16 @@ pub struct Wanted {
     /// The fire as a light for the stage.
     pub fire_light: bool,
     /// The gas that bends rays.
-    pub bent: bool,
-    /// Paths of their own for X, Y and Z.
-    pub dispersion: bool,
+    pub bent: Option<Paths>,
+}
+
+/// Which light goes which way through gas that bends it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Paths {
+    /// All along that of Y.
+    Common,
+    /// X, Y and Z each along a path of its own.
+    Apart,
 }
 
 /// The fields of one scene.
@@ -74,11 +81,11 @@ impl Fields {
 
 impl Bent {
     /// The gas of a scene that bends light, seen in a picture of `size` pixels; `None` where none does.
-    pub(super) fn new(scene: &Scene, size: [u32; 2], dispersion: bool) -> Option<Self> {
+    pub(super) fn new(scene: &Scene, size: [u32; 2], paths: Paths) -> Option<Self> {
         let [x_nm, y_nm, z_nm] = PATHS_NM;
         let at = |nm| Refractivity::new(&scene.flame, nm);
         let main = at(y_nm)?;
-        let others = if dispersion {
+        let others = if paths == Paths::Apart {
             Some([at(x_nm)?, at(z_nm)?])
         } else {
             None

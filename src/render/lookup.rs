@@ -234,7 +234,6 @@ mod tests {
             smoke: map("smoke", 1.0),
             temperature: map("temperature", 1e4),
             flame: map("flame", 1.0),
-            ..FieldMaps::default()
         };
         let volume = Volume::from_grids(grids, "speckles");
         crate::scene::pack_for_tests(&volume, &maps, interpolation).unwrap()

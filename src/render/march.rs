@@ -135,7 +135,7 @@ impl<'a> Marcher<'a> {
             End::Surface(hit) => {
                 let [radiance, features] = self.surface(hit, [column, smoke]);
                 let [soot, gas] = [
-                    wavelengths.xyz_of(radiance.into_iter()),
+                    wavelengths.xyz_of(radiance),
                     glow.xyz_of(features.into_iter()),
                 ];
                 xyz = std::array::from_fn(|c| xyz[c] + soot[c] + gas[c]);

@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::fields::{Bent, Fields, Wanted};
+use super::fields::{Bent, Fields, Paths, Wanted};
 use super::level::Level;
 use super::tables::Tables;
 use super::{Cancel, Effects, Flaws, Settings, Switch};
@@ -107,8 +107,13 @@ impl Plan {
         let wanted = Wanted {
             scatter: is_on(&decisions, SCATTERING),
             fire_light: is_on(&decisions, FIRE_LIGHT),
-            bent: is_on(&decisions, REFRACTION),
-            dispersion: is_on(&decisions, DISPERSION),
+            bent: is_on(&decisions, REFRACTION).then(|| {
+                if is_on(&decisions, DISPERSION) {
+                    Paths::Apart
+                } else {
+                    Paths::Common
+                }
+            }),
         };
         Self {
             tables: Tables::new(scene, size, wavelengths, features, wanted.scatter),
@@ -131,15 +136,10 @@ impl Plan {
         if let Some(ready) = cell.get() {
             return Some(ready);
         }
-        let bent = || {
-            let bent = || Bent::new(scene, self.tables.size, self.wanted.dispersion);
-            bent().map(Arc::new)
-        };
-        let bent = if self.wanted.bent {
+        let bent = self.wanted.bent.and_then(|paths| {
+            let bent = || Bent::new(scene, self.tables.size, paths).map(Arc::new);
             self.bent.get_or_init(bent).clone()
-        } else {
-            None
-        };
+        });
         let fields = Fields::new(scene, &self.tables, self.wanted, bent, level, cancel)?;
         Some(cell.get_or_init(|| fields))
     }

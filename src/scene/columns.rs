@@ -26,7 +26,7 @@ impl Medium {
             length * BRICK as f64
         });
         let mut most = [0.0_f64; 2];
-        for axis in 0..3 {
+        for (axis, edge) in edges.into_iter().enumerate() {
             let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
             let mut columns = vec![[0.0_f64; 2]; size[u] * size[v]];
             for (i, &slot) in self.table.iter().enumerate() {
@@ -36,7 +36,7 @@ impl Medium {
                 let place = [i % size[0], i / size[0] % size[1], i / (size[0] * size[1])];
                 let column = &mut columns[place[v] * size[u] + place[u]];
                 for (sum, densest) in column.iter_mut().zip(densest[slot as usize]) {
-                    *sum += edges[axis] * f64::from(densest);
+                    *sum += edge * f64::from(densest);
                 }
             }
             for column in columns {

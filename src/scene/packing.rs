@@ -143,7 +143,7 @@ impl Fields<'_> {
                 _ => read_flame(flame.as_ref(), first(brick), burning),
             });
 
-        let smoke = layout::absorber(self, &self.maps.smoke, self.amounts[1], reference)
+        let smoke = layout::absorber(self, self.maps.smoke.as_ref(), self.amounts[1], reference)
             .filter(|_| self.smoke_apart);
         let mut of_smoke = vec![0.0; if smoke.is_some() { count } else { 0 }];
         if let Some(smoke) = &smoke {

@@ -52,7 +52,6 @@ fn a_ball_on_a_grid_bends_light_as_the_ball_itself() {
         let away = turned.y * 0.8 + turned.z * 0.6;
         let expected = by_quadrature(&gas, beside);
         let off = away / expected - 1.0;
-        println!("{beside} m: {away:e} rad, {expected:e}, off by {off:.4}");
         // The bell's flank is 5 voxels wide in n: differences over two voxels and linear interpolation flatten it by
         // (1/6 + 1/6)/25 = 1.3 %; where the flank's sides cancel, up to twice that.
         assert!(
@@ -164,13 +163,10 @@ fn a_straight_path_is_cut_as_the_march_cuts_a_ray() {
             } else {
                 f64::from(chord.last_share)
             };
-            for axis in 0..3 {
-                let middle = step as f64 + 0.5 * share;
+            let middle = step as f64 + 0.5 * share;
+            for (axis, found) in position.iter().enumerate() {
                 let expected = chord.start[axis] + middle * chord.delta[axis];
-                assert!(
-                    (position[axis] - expected).abs() < 1e-5,
-                    "{step_m}: step {step}"
-                );
+                assert!((found - expected).abs() < 1e-5, "{step_m}: step {step}");
             }
         }
         for [first, end] in &bent.runs {
@@ -245,71 +241,4 @@ fn a_path_begins_where_an_eye_in_the_gas_is() {
     let [whole, half] = [straight_up_x(0.1, 0.003), inside].map(|ray| through(&flame, &ray));
     let share = half.exit.direction.y / whole.exit.direction.y;
     assert!((share - 0.5).abs() < 1e-2, "{share}");
-}
-
-/// `cargo test --release --lib microseconds_for_a_ray -- --ignored --nocapture`, with `SOOTLIGHT_SHARED` on a pool fire as
-/// well.
-#[test]
-#[ignore = "a measurement"]
-fn microseconds_for_a_ray() {
-    let ball = Gas::default().flame(ball(DVec3::ZERO), clear);
-    let torch = flame_of(crate::volume::procedural::torch());
-    let pool = std::env::var_os("SOOTLIGHT_SHARED").map(|shared| {
-        let file = std::path::Path::new(&shared).join("data/pool/pool_0022_zip_half.vdb");
-        flame_of(crate::volume::open(&[file], &crate::volume::Limits::default()).unwrap())
-    });
-    for flame in [ball, torch].iter().chain(&pool) {
-        let begin = std::time::Instant::now();
-        let gas = Refractivity::new(flame, 550.0).unwrap();
-        let medium = flame.medium();
-        println!(
-            "{:?} bricks, {} MB, {:.0} ms",
-            medium.occupancy(),
-            gas.bytes() >> 20,
-            1e3 * begin.elapsed().as_secs_f64()
-        );
-        let around = Surroundings {
-            medium,
-            gas: &gas,
-            stage: &Stage::default(),
-        };
-        let bounds = medium
-            .domain
-            .transformed(&medium.lattice_from_world.inverse());
-        let camera = crate::scene::Camera::framing(&bounds, 1.0, 32.0);
-        let view = camera.view([200, 200]).unwrap();
-        let step_m = medium.voxel_size_m();
-        let begin = std::time::Instant::now();
-        let (mut rays, mut knots, mut largest) = (0, 0, 0.0_f64);
-        for i in 0..40_000 {
-            let ray = view.ray(f64::from(i % 200) + 0.5, f64::from(i / 200) + 0.5);
-            let bent = bend(around, &ray, step_m);
-            rays += u32::from(bent.chord.is_some());
-            knots += bent
-                .chord
-                .map_or(0, |it| it.runs.iter().map(|run| run[1] - run[0]).sum());
-            largest = largest.max(bent.exit.direction.angle_between(ray.direction));
-        }
-        let micros = begin.elapsed().as_secs_f64() * 1e6;
-        println!(
-            "  {:.2} µs a ray with gas, {} steps in it, {:.3} µs a step, {largest:.2e} rad at most",
-            micros / f64::from(rays),
-            knots / rays,
-            micros / f64::from(knots),
-        );
-    }
-}
-
-/// A volume as its preset has it, bending light.
-fn flame_of(volume: crate::volume::Volume) -> Flame {
-    let preset = crate::volume::preset(crate::volume::Producer::Auto, &volume);
-    let params = FlameParams {
-        maps: preset.maps,
-        placement: crate::scene::Placement {
-            up: preset.up,
-            metres_per_unit: 1.0,
-        },
-        ..Gas::default().params()
-    };
-    Flame::new(&std::sync::Arc::new(volume), &params, None)
 }

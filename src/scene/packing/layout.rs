@@ -40,12 +40,13 @@ impl<'a> Layout<'a> {
         let source = |map: &'a Option<FieldMap>, amount: f64| {
             Source::new(volume, map.as_ref(), reference, amount).filter(Source::has_data)
         };
-        let smoke = absorber(fields, &maps.smoke, fields.amounts[1], reference);
+        let smoke = absorber(fields, maps.smoke.as_ref(), fields.amounts[1], reference);
         let smoke_apart = fields.smoke_apart && smoke.is_some();
-        let absorbers: Vec<Source<'a>> = absorber(fields, &maps.soot, fields.amounts[0], reference)
-            .into_iter()
-            .chain(smoke)
-            .collect();
+        let absorbers: Vec<Source<'a>> =
+            absorber(fields, maps.soot.as_ref(), fields.amounts[0], reference)
+                .into_iter()
+                .chain(smoke)
+                .collect();
         // What glows in the gas, and from which value of its field on.
         let burning = fields.gas.burning.and_then(|burning| match burning {
             Burning::Field => Some((source(&maps.flame, 1.0)?, 0.0)),
@@ -120,11 +121,11 @@ struct Shown<'a> {
 /// Soot or smoke as it is packed, times its amount; `None` if there is none.
 pub(super) fn absorber<'a>(
     fields: &Fields<'a>,
-    map: &'a Option<FieldMap>,
+    map: Option<&'a FieldMap>,
     amount: f64,
     reference: &Grid,
 ) -> Option<Source<'a>> {
-    let source = Source::new(fields.volume, map.as_ref(), reference, amount);
+    let source = Source::new(fields.volume, map, reference, amount);
     source.filter(|source| amount > 0.0 && source.has_data())
 }
 
