@@ -64,6 +64,7 @@ fn settings(size: u32, step_voxels: f64, set: WavelengthSet) -> Settings {
         step_voxels,
         wavelengths: set,
         samples_per_pixel: 1,
+        scattering_orders: 1,
         effects: Effects::AUTO,
     }
 }

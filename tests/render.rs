@@ -17,6 +17,7 @@ const SETTINGS: Settings = Settings {
     step_voxels: 1.0,
     wavelengths: WavelengthSet::Fitted(6),
     samples_per_pixel: 2,
+    scattering_orders: 1,
     effects: Effects::AUTO,
 };
 

@@ -150,6 +150,7 @@ impl Stats<'_> {
                 WavelengthSet::Plain(_) => "plain",
             },
             "samples_per_pixel": settings.samples_per_pixel,
+            "scattering_orders": settings.scattering_orders,
             "interpolation": self.job.flame.interpolation.name(),
         })
     }

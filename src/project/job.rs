@@ -251,6 +251,7 @@ impl Project {
             step_voxels: self.render.step_voxels.unwrap_or(step_voxels),
             wavelengths: self.render.wavelengths.unwrap_or(wavelengths),
             samples_per_pixel: self.render.samples_per_pixel.unwrap_or(samples_per_pixel),
+            scattering_orders: self.render.scattering_orders,
             effects: self.effects.into(),
         }
         .validated()

@@ -345,6 +345,7 @@ pub(super) fn everything_set() -> Project {
             wavelengths: Some(WavelengthSet::Fitted(8)),
             interpolation: Interpolation::Tricubic,
             samples_per_pixel: Some(4),
+            scattering_orders: 1,
         },
         view: ViewSettings {
             white_k: Some(2000.0),

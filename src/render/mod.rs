@@ -31,6 +31,7 @@ mod level;
 mod lookup;
 pub mod march;
 pub mod null_collision;
+mod orders;
 mod own_light;
 pub mod pass;
 pub mod plan;
@@ -60,6 +61,8 @@ pub struct Settings {
     pub wavelengths: WavelengthSet,
     /// Rays for each pixel; 1 is the pixel's centre.
     pub samples_per_pixel: u32,
+    /// How often light may be scattered where scattering is computed: once without noise, more often by path tracing.
+    pub scattering_orders: u32,
     /// Which effects are computed.
     pub effects: Effects,
 }
@@ -122,6 +125,9 @@ pub enum SettingsError {
     /// There is no such set.
     #[error("there is no set of {} wavelengths: choose 4, 6 or 8 (fitted), 16, 32 or 64 (plain)", .0.count())]
     Wavelengths(WavelengthSet),
+    /// Too few or too many orders.
+    #[error("render.scattering_orders is {0}: it must lie between 1 and {MAX_ORDERS}")]
+    Orders(u32),
     /// Too few or too many rays.
     #[error("render.samples_per_pixel is {0}: it must lie between 1 and {MAX_SAMPLES}")]
     Samples(u32),
@@ -133,6 +139,8 @@ pub const MAX_SIDE: u32 = 16384;
 pub const MAX_PIXELS: u64 = 1 << 26;
 /// Shortest and longest step in voxels. A step beyond the box is one step of its chord.
 pub const STEP_RANGE: [f64; 2] = [0.01, 64.0];
+/// Most orders of scattering: light that was scattered so often has lost its way, and nearly all of itself.
+pub const MAX_ORDERS: u32 = 64;
 /// Most rays for one pixel.
 pub const MAX_SAMPLES: u32 = 4096;
 
@@ -154,6 +162,9 @@ impl Settings {
         }
         if !(1..=MAX_SAMPLES).contains(&self.samples_per_pixel) {
             return Err(SettingsError::Samples(self.samples_per_pixel));
+        }
+        if !(1..=MAX_ORDERS).contains(&self.scattering_orders) {
+            return Err(SettingsError::Orders(self.scattering_orders));
         }
         Ok(self)
     }

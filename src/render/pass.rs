@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::film::{Pixel, Tile};
 use super::march::{Marcher, PACKET_SIDE};
+use super::orders::HigherOrders;
 use super::{Cancel, Level, Plan, Settings};
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
@@ -86,13 +87,16 @@ pub fn render_pass(
     let Ok(marcher) = Marcher::with_fields(scene, plan, fields, pass.step_voxels) else {
         return true;
     };
+    // Coarse passes are for speed.
+    let higher = (plan.orders > 1 && pass.stride == 1)
+        .then(|| HigherOrders::new(scene, &plan.tables, plan.orders));
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
     let tiles = centre_out(rays);
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     rayon::broadcast(|_| {
         while let Some(&corner) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) {
             let size = [0, 1].map(|axis| TILE.min(rays[axis] - corner[axis]));
-            match render_tile(&marcher, pass, corner, size, cancel) {
+            match render_tile(&marcher, higher.as_ref(), pass, corner, size, cancel) {
                 Some(tile) => sink(tile),
                 None => stopped.store(true, Ordering::Relaxed),
             }
@@ -118,6 +122,7 @@ fn centre_out(rays: [u32; 2]) -> Vec<[u32; 2]> {
 /// `None` if cancelled.
 fn render_tile(
     marcher: &Marcher<'_>,
+    higher: Option<&HigherOrders<'_>>,
     pass: &Pass,
     corner: [u32; 2],
     size: [u32; 2],
@@ -147,7 +152,10 @@ fn render_tile(
             });
             let (packet, taken) = marcher.march(&points);
             samples += taken;
-            for (place, pixel) in places.iter().zip(packet) {
+            for ((place, point), mut pixel) in places.iter().zip(points).zip(packet) {
+                if let (Some(higher), Some(point)) = (higher, point) {
+                    higher.add(point, pass.sample, &mut pixel);
+                }
                 if let Some([x, y]) = place {
                     pixels[(y * size[0] + x) as usize] = pixel;
                 }
@@ -176,6 +184,7 @@ mod tests {
         step_voxels: 0.5,
         wavelengths: WavelengthSet::Fitted(4),
         samples_per_pixel: 3,
+        scattering_orders: 1,
         effects: Effects::AUTO,
     };
 

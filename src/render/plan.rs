@@ -25,6 +25,8 @@ pub struct Plan {
     /// Which effects are computed, and why.
     pub decisions: Vec<Decision>,
     wanted: Wanted,
+    /// How often light may be scattered; 1 where scattering is off.
+    pub(super) orders: u32,
     /// Coarse and fine fields, as soon as they have been asked for.
     fields: [OnceLock<Fields>; 2],
     bent: OnceLock<Option<Arc<Bent>>>,
@@ -48,8 +50,8 @@ pub struct Decision {
 pub struct Facts {
     /// How far refraction moves what lies behind the fire at most, pixels; `None` where light goes straight.
     pub largest_shift_px: Option<f64>,
-    /// Estimated share of the picture's light that was scattered more than once and is left out; `None` where nothing is
-    /// scattered.
+    /// Estimated share of the picture's light that was scattered more often than is computed, and is left out; `None` where
+    /// nothing is scattered.
     pub orders_left_out: Option<f64>,
 }
 
@@ -66,6 +68,9 @@ impl Plan {
         let with_radicals = is_on(&decisions, CHEMILUMINESCENCE);
         features.retain(|feature| with_radicals || !feature.is_radical());
         let mut plan = Self::of(scene, settings.size, wavelengths, features, decisions);
+        if plan.wanted.scatter {
+            plan.orders = settings.scattering_orders;
+        }
         let medium = scene.flame.medium();
         let densest = plan
             .tables
@@ -120,6 +125,7 @@ impl Plan {
             flaws: Flaws::default(),
             decisions,
             wanted,
+            orders: 1,
             fields: [OnceLock::new(), OnceLock::new()],
             bent: OnceLock::new(),
             without: Fields::default(),
@@ -159,7 +165,7 @@ impl Plan {
         let scatter = fields.and_then(|fields| fields.scatter.as_ref());
         Facts {
             largest_shift_px: bent.map(|bent| bent.largest_shift_px),
-            orders_left_out: scatter.map(super::scatter::InScatter::orders_left_out),
+            orders_left_out: scatter.map(|scatter| scatter.orders_left_out(self.orders)),
         }
     }
 }

@@ -112,7 +112,8 @@ pub(super) struct InScatter {
     reach_m: f32,
     /// The plan's nodes, features that are not carried, and radicals.
     counts: [usize; 3],
-    orders_left_out: f64,
+    /// p of the module's page.
+    share: f64,
 }
 
 impl InScatter {
@@ -159,7 +160,7 @@ impl InScatter {
         }
         gathered.normalise(&directions);
 
-        let orders_left_out = gathered.orders_left_out(&colours, directions.len());
+        let share = gathered.share(&colours, directions.len());
         let voxel_m = scene.flame.medium().voxel_size_m();
         let reach_m = reach_m(cells.edge as f64, voxel_m) as f32;
         let features = tables.features.len();
@@ -172,7 +173,7 @@ impl InScatter {
             light: sharpen::sharpened(&gathered, &extinction, reach_m),
             reach_m,
             counts: [colours.nodes, features - radicals, radicals],
-            orders_left_out,
+            share,
         })
     }
 
@@ -240,9 +241,13 @@ impl InScatter {
         self.reach_m
     }
 
-    /// Estimated share of the picture's light that has been scattered more than once, which is left out.
-    pub(super) fn orders_left_out(&self) -> f64 {
-        self.orders_left_out
+    /// Estimated share of the picture's light that has been scattered more often than `orders` times (at least 1).
+    pub(super) fn orders_left_out(&self, orders: u32) -> f64 {
+        if self.share < 1.0 {
+            self.share.powi(orders as i32 + 1) / (1.0 - self.share)
+        } else {
+            f64::INFINITY
+        }
     }
 }
 
@@ -398,8 +403,8 @@ impl<'a> Gathered<'a> {
             });
     }
 
-    /// See the module's page.
-    fn orders_left_out(&self, colours: &Colours, directions: usize) -> f64 {
+    /// p of the module's page.
+    fn share(&self, colours: &Colours, directions: usize) -> f64 {
         if colours.len() == 0 {
             return 0.0;
         }
@@ -414,15 +419,10 @@ impl<'a> Gathered<'a> {
             scattered += f64::from(colours.scattering(self.luminous, record)) * mean;
             emitted += f64::from(record[chunk][number]);
         }
-        let share = if emitted > 0.0 {
+        if emitted > 0.0 {
             scattered / emitted
         } else {
             0.0
-        };
-        if share < 1.0 {
-            share * share / (1.0 - share)
-        } else {
-            f64::INFINITY
         }
     }
 }

@@ -10,7 +10,7 @@ use glam::{DAffine3, DVec3, IVec3};
 use sootlight::project::{Preset, Project};
 use sootlight::render::march::Marcher;
 use sootlight::render::null_collision::{Estimate, NullCollision, Params, Scattering};
-use sootlight::render::{Effects, Plan, Settings, Switch};
+use sootlight::render::{Cancel, Effects, Plan, Settings, Switch, render_still};
 use sootlight::scene::{Scene, WavelengthSet};
 use sootlight::volume::{self, Border, BuiltIn, Grid, Limits, Volume};
 
@@ -52,6 +52,7 @@ fn marched(scene: &Scene, scattering: Switch) -> Vec<[f64; 3]> {
         step_voxels: STEP_VOXELS,
         wavelengths: WavelengthSet::Fitted(6),
         samples_per_pixel: 1,
+        scattering_orders: 1,
         effects: Effects {
             scattering,
             ..Effects::AUTO
@@ -260,4 +261,76 @@ fn light_scattered_once_agrees_with_the_reference_on_a_real_fire() {
     let volume = shared_volume(&shared, "campfire/campfire_0022_zip_half.vdb");
     let scene = scattering(Project::default(), volume, &[]);
     assert_agreement("campfire", &scene, MORE_SAMPLES);
+}
+
+/// Mean X, Y, Z of the light of all pixels of a still.
+fn mean_of_still(scene: &Scene, scattering_orders: u32, threads: usize) -> ([f64; 3], Vec<u32>) {
+    let settings = Settings {
+        size: SIZE,
+        step_voxels: 0.25,
+        wavelengths: WavelengthSet::Fitted(6),
+        samples_per_pixel: 4,
+        scattering_orders,
+        effects: Effects {
+            scattering: Switch::On,
+            ..Effects::AUTO
+        },
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    let frame = pool.build().unwrap().install(|| {
+        render_still(scene, &settings, &Cancel::never(), &|_| {}).expect("nobody cancels")
+    });
+    let pixels = frame.film.pixels();
+    let bits = pixels.iter().flat_map(|pixel| pixel.xyz.map(f32::to_bits));
+    let mean = |c: usize| {
+        let sum: f64 = pixels.iter().map(|pixel| f64::from(pixel.xyz[c])).sum();
+        sum / pixels.len() as f64
+    };
+    ([0, 1, 2].map(mean), bits.collect())
+}
+
+#[test]
+fn orders_beyond_the_first_are_added_on_request() {
+    let scene = scattering(
+        Project::default(),
+        BuiltIn::Torch.volume(),
+        &["soot.radius_nm=80", "soot.amount=2"],
+    );
+    let (once, _) = mean_of_still(&scene, 1, 2);
+    let (all, bits) = mean_of_still(&scene, 64, 2);
+    assert_eq!(
+        bits,
+        mean_of_still(&scene, 64, 1).1,
+        "threads make a difference"
+    );
+    let wavelengths = WavelengthSet::Fitted(6).wavelengths(scene.flame.soot());
+    let added_by_paths = |samples: u32| {
+        let params = Params {
+            scattering: Scattering::Flame,
+            min_bounces: 2,
+            scattering_points: 8.0,
+            ..Params::default()
+        };
+        let reference = NullCollision::new(&scene, &wavelengths, &params);
+        let estimates = reference.render(SIZE, samples, 5).unwrap();
+        let count = estimates.len() as f64;
+        let [mut sum, mut variance] = [0.0; 2];
+        for estimate in estimates {
+            sum += estimate.mean[1] / count;
+            variance += estimate.variance_of_mean[1] / (count * count);
+        }
+        (sum, variance.sqrt())
+    };
+    let (expected, error) = added_by_paths(1024);
+    let added = all[1] - once[1];
+    // Our 256 paths a pixel are as independent as the reference's 1024; pixels' centres and their areas differ by far less.
+    assert!(
+        (added - expected).abs() < 5.0 * 2.3 * error,
+        "{added:e} was added, not {expected:e} ± {error:e}"
+    );
+    assert!(
+        added > 20.0 * error && added > 2e-3 * once[1],
+        "{added:e} of {:e}",
+        once[1]
+    );
 }

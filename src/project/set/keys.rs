@@ -316,6 +316,11 @@ pub const KEYS: &[Key] = &[
         "1 is the pixel's centre; overrides quality",
     ),
     key(
+        "render.scattering_orders",
+        "a whole number, 1 to 64",
+        "how often light may be scattered; more than once by path tracing, with some noise",
+    ),
+    key(
         "view.exposure_ev",
         "a number of stops, -20 to 20",
         "above the automatic exposure",

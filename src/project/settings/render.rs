@@ -23,6 +23,8 @@ pub struct RenderSettings {
     /// Rays for each pixel; 1 is the pixel's centre.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples_per_pixel: Option<u32>,
+    /// How often light may be scattered, 1 to 64: once without noise, more often by path tracing.
+    pub scattering_orders: u32,
 }
 
 impl Default for RenderSettings {
@@ -34,6 +36,7 @@ impl Default for RenderSettings {
             wavelengths: None,
             interpolation: Interpolation::default(),
             samples_per_pixel: None,
+            scattering_orders: 1,
         }
     }
 }

@@ -5,7 +5,7 @@
 use super::*;
 use crate::render::chord::Chord;
 use crate::scene::Air;
-use crate::scene::flame::{Bending, Flame, FlameParams};
+use crate::scene::flame::{Bending, Flame};
 use crate::scene::refractivity::tests::{Gas, VOXEL_M, ball, clear};
 use crate::volume::UpAxis;
 

@@ -74,6 +74,7 @@ fn plan(scene: &Scene) -> Plan {
         step_voxels: 0.5,
         wavelengths: WavelengthSet::Fitted(6),
         samples_per_pixel: 1,
+        scattering_orders: 1,
         effects: Effects {
             scattering: Switch::On,
             ..Effects::AUTO
@@ -285,7 +286,7 @@ fn what_is_left_out_is_about_what_the_reference_adds() {
         println!(
             "{radius_nm} nm: {:.5} added, {:.5} estimated",
             all - once,
-            field.orders_left_out()
+            field.orders_left_out(1)
         );
     }
 }
@@ -324,7 +325,7 @@ fn what_accuracy_costs() {
                 field.size,
                 1.0 / field.per_voxel,
                 begin.elapsed().as_secs_f64(),
-                field.orders_left_out()
+                field.orders_left_out(1)
             );
             fields.push(field);
         }
@@ -363,8 +364,8 @@ fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
     assert_eq!(bits(&one), bits(&two));
     assert!(one.light.iter().flatten().all(|light| light.is_finite()));
     assert_eq!(
-        one.orders_left_out().to_bits(),
-        two.orders_left_out().to_bits()
+        one.orders_left_out(1).to_bits(),
+        two.orders_left_out(1).to_bits()
     );
 
     let passed = Cancel::when_passed(Arc::new(1.into()), 0);
@@ -386,7 +387,7 @@ fn no_fire_scatters_nothing() {
     let field = InScatter::new(&scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
     let found = read(&scene, &plan, &field, DVec3::ONE);
     assert!(found.iter().all(|light| *light == 0.0));
-    assert_eq!(field.orders_left_out(), 0.0);
+    assert_eq!(field.orders_left_out(1), 0.0);
 }
 
 /// XYZ of the ray through a point, with light scattered once, by midpoint steps in f64.
