@@ -184,20 +184,19 @@ fn what_scatters_acts_where_scattering_is_computed() {
 }
 
 #[test]
-fn what_the_plan_leaves_out_is_told_with_its_reason() {
+fn what_the_plan_leaves_out_sends_to_its_reason() {
     let mut project = Project::default();
     project
         .set_all(["stage.ground=true", "soot.hold=volume"])
         .unwrap();
     let job = project.job(&Arc::new(procedural::torch())).unwrap();
     for (control, effect) in [
-        (Control::Humidity, "refraction"),
         (Control::Asymmetry, "scattering"),
         (Control::SootRadius, "scattering"),
         (Control::StageColour, "fire_light"),
     ] {
         assert_eq!(why_idle(&job, control, &[]), None, "{control:?}");
         let words = why_idle(&job, control, &[left_out(effect)]).unwrap();
-        assert!(words.contains("it is too faint"), "{control:?}: {words}");
+        assert!(words.contains("Effects says why"), "{control:?}: {words}");
     }
 }

@@ -16,7 +16,6 @@ use crate::math::Ray;
 use crate::math::lanes::LANES;
 use crate::physics::blackbody;
 use crate::physics::soot::{Hold, SootModel};
-use crate::render::null_collision::{NullCollision, Params, Scattering};
 use crate::render::own_light::own_light;
 use crate::render::{Effects, Plan, Settings, Switch};
 use crate::scene::{
@@ -56,16 +55,6 @@ fn scene(volume: Volume, radius_nm: f64, asymmetry: Option<f64>) -> Scene {
         flame: Flame::new(&Arc::new(volume), &params, None),
         stage: Stage::default(),
     }
-}
-
-/// A file among the shared volumes; `None` with a word in print if there are none.
-fn shared(file: &str) -> Option<Volume> {
-    let Some(folder) = std::env::var_os("SOOTLIGHT_SHARED") else {
-        eprintln!("skipped: SOOTLIGHT_SHARED is not set");
-        return None;
-    };
-    let path = PathBuf::from(folder).join("data").join(file);
-    Some(volume::open(&[path], &Limits::default()).unwrap())
 }
 
 fn plan(scene: &Scene) -> Plan {
@@ -276,70 +265,6 @@ fn the_field_agrees_with_rays_in_all_directions_from_single_places() {
 }
 
 #[test]
-#[ignore = "a number for people: half a minute on two cores"]
-fn what_is_left_out_is_about_what_the_reference_adds() {
-    for radius_nm in [60.0, 80.0] {
-        let scene = scene(procedural::torch(), radius_nm, None);
-        let field =
-            InScatter::new(&scene, &plan(&scene).tables, Level::Fine, &Cancel::never()).unwrap();
-        let [once, all] = [1, u32::MAX].map(|bounces| compare(&scene, 8192, bounces).2);
-        println!(
-            "{radius_nm} nm: {:.5} added, {:.5} estimated",
-            all - once,
-            field.orders_left_out(1)
-        );
-    }
-}
-
-#[test]
-#[ignore = "a table for people: a minute on two cores"]
-fn what_accuracy_costs() {
-    let files = [
-        "pool/pool_0022_zip_half.vdb",
-        "plume/plume.vdb",
-        "campfire/campfire_0022_zip_half.vdb",
-    ];
-    let volumes = [("torch", Some(procedural::torch()))].into_iter();
-    for (name, volume) in volumes.chain(files.map(|file| (file, shared(file)))) {
-        let Some(volume) = volume else { continue };
-        let scene = scene(volume, 60.0, None);
-        let plan = plan(&scene);
-        println!("{name}: {:?} voxels", scene.flame.medium().domain.size());
-        let efforts = [
-            (8_000, 16),
-            (30_000, 16),
-            (30_000, 32),
-            (250_000, 32),
-            (400_000, 32),
-            (400_000, 64),
-            (700_000, 32),
-        ];
-        let mut fields = Vec::new();
-        for (cells, directions) in efforts {
-            let begin = std::time::Instant::now();
-            let effort = Effort { cells, directions };
-            let field =
-                InScatter::with_effort(&scene, &plan.tables, effort, &Cancel::never()).unwrap();
-            println!(
-                "  {cells} {directions}: {:?} cells of {} voxels, {:.3} s, left out {:.5}",
-                field.size,
-                1.0 / field.per_voxel,
-                begin.elapsed().as_secs_f64(),
-                field.orders_left_out(1)
-            );
-            fields.push(field);
-        }
-        let asymmetry = scene.flame.asymmetry(plan.tables.wavelengths.nodes_nm[3]);
-        for (effort, error) in efforts
-            .iter()
-            .zip(errors(&scene, &plan, &fields, asymmetry))
-        {
-            println!("  {effort:?}: mean {:.4}, rms {:.4}", error[0], error[1]);
-        }
-    }
-}
-
-#[test]
 fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
     let scene = scene(procedural::torch(), 40.0, None);
     let plan = plan(&scene);
@@ -388,104 +313,4 @@ fn no_fire_scatters_nothing() {
     let found = read(&scene, &plan, &field, DVec3::ONE);
     assert!(found.iter().all(|light| *light == 0.0));
     assert_eq!(field.orders_left_out(1), 0.0);
-}
-
-/// XYZ of the ray through a point, with light scattered once, by midpoint steps in f64.
-fn marched(scene: &Scene, plan: &Plan, field: &InScatter, ray: &Ray, step_voxels: f64) -> [f64; 3] {
-    let medium = scene.flame.medium();
-    let Some((local, [enter, exit])) = medium.enter(ray) else {
-        return [0.0; 3];
-    };
-    let nodes = &plan.tables.wavelengths.nodes_nm;
-    let laws: Vec<(f64, [f64; 2])> = nodes
-        .iter()
-        .map(|&nm| {
-            (
-                scene.flame.absorption_per_sample(nm),
-                scene.flame.scattering_per_sample(nm),
-            )
-        })
-        .collect();
-    let step = step_voxels * medium.voxel_size_m();
-    let (mut light, mut depth) = (vec![0.0; nodes.len()], vec![0.0_f64; nodes.len()]);
-    let mut t = enter;
-    while t < exit {
-        let length = step.min(exit - t);
-        let at = local.at(t + 0.5 * length);
-        t += length;
-        let ([all, kelvin], of_smoke) = (medium.sample(at), medium.smoke(at));
-        if all <= 0.0 {
-            continue;
-        }
-        let scattered = read(scene, plan, field, at);
-        for (n, &(absorption, [soot, smoke])) in laws.iter().enumerate() {
-            let sigma_a = absorption * all;
-            let sigma_s = soot * (all - of_smoke) + smoke * of_smoke;
-            let emitted = sigma_a * blackbody::spectral_radiance(nodes[n], kelvin);
-            let source = (emitted + sigma_s * scattered[n]) / (sigma_a + sigma_s);
-            light[n] += source * (-depth[n]).exp() * -(-(sigma_a + sigma_s) * length).exp_m1();
-            depth[n] += (sigma_a + sigma_s) * length;
-        }
-    }
-    plan.tables.wavelengths.xyz_of(light)
-}
-
-/// Largest |z| of any pixel, mean of z times the root of their number, and the single light's share.
-fn compare(scene: &Scene, paths: u32, bounces: u32) -> (f64, [f64; 3], f64) {
-    let plan = plan(scene);
-    let field = InScatter::new(scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
-    let params = Params {
-        scattering: Scattering::Flame,
-        max_bounces: bounces,
-        scattering_points: 8.0,
-        ..Params::default()
-    };
-    let reference = NullCollision::new(scene, &plan.tables.wavelengths, &params);
-    let size = [12, 12];
-    let estimates = reference.render(size, paths, 7).unwrap();
-    let view = scene.camera.view(size).unwrap();
-    let ours: Vec<[f64; 3]> = (0..size[0] * size[1])
-        .into_par_iter()
-        .map(|pixel| {
-            let [x, y] = [pixel % size[0], pixel / size[0]].map(|side| f64::from(side) + 0.5);
-            marched(scene, &plan, &field, &view.ray(x, y), 0.1)
-        })
-        .collect();
-    let peak = ours.iter().map(|xyz| xyz[1]).fold(0.0, f64::max);
-    let (mut worst, mut together, mut count) = (0.0_f64, [0.0; 3], 0.0);
-    let (mut theirs_y, mut ours_y) = (0.0, 0.0);
-    for (estimate, ours) in estimates.iter().zip(&ours) {
-        theirs_y += estimate.mean[1];
-        ours_y += ours[1];
-        if ours[1] < 1e-4 * peak {
-            continue;
-        }
-        count += 1.0;
-        for c in 0..3 {
-            let z = (estimate.mean[c] - ours[c]) / estimate.variance_of_mean[c].sqrt();
-            worst = worst.max(z.abs());
-            together[c] += z;
-        }
-    }
-    (
-        worst,
-        together.map(|z| z / f64::sqrt(count)),
-        theirs_y / ours_y - 1.0,
-    )
-}
-
-#[test]
-fn a_ray_with_light_scattered_once_agrees_with_the_reference() {
-    let plume = shared("plume/plume.vdb").map(|volume| ("plume", volume));
-    let scenes = [("torch", procedural::torch())].into_iter().chain(plume);
-    for (name, volume) in scenes {
-        let scene = scene(volume, 60.0, None);
-        let (worst, together, off) = compare(&scene, 4096, 1);
-        println!("{name}: worst {worst:.2}, together {together:.2?}, Y off {off:.5}");
-        // One false alarm in a thousand of 432 and of 3 comparisons (Šidák).
-        assert!(
-            worst < 4.75 && together.iter().all(|z| z.abs() < 3.6),
-            "{name}"
-        );
-    }
 }
