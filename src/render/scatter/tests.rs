@@ -6,7 +6,6 @@
     reason = "a test says how near it came, and that it was skipped"
 )]
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{DAffine3, IVec3};
@@ -22,7 +21,7 @@ use crate::scene::{
     Air, Camera, Flame, FlameParams, Fuel, GlowParams, Interpolation, Placement, ScatteringParams,
     Stage, WavelengthSet,
 };
-use crate::volume::{self, Border, Grid, Limits, Producer, Volume, procedural};
+use crate::volume::{self, Border, Grid, Producer, Volume, procedural};
 
 /// A volume as it opens, with particles of this radius (nm), seen from in front in a square picture.
 fn scene(volume: Volume, radius_nm: f64, asymmetry: Option<f64>) -> Scene {
