@@ -6,6 +6,7 @@ use egui::Ui;
 
 use super::knob::{Choice, Knob, name, note};
 use super::{Command, Known, section, short, unit};
+use crate::physics::constants::METRES_PER_NM;
 use crate::physics::soot::{
     Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM, SootModel,
     volume_fraction_factor,
@@ -17,6 +18,11 @@ use crate::scene::Fuel;
 const OFFSETS_K: [f64; 2] = [-1e5, 1e5];
 /// What factors from a file's numbers to kelvin may be.
 const SCALES_K: [f64; 2] = [-1e9, 1e9];
+
+/// By how much more spheres of a radius must absorb than small particles for it to be told.
+const TOLD_ABSORPTION: f64 = 0.045;
+/// Wavelength at which that is judged, nm: where the eye is most sensitive.
+const JUDGED_NM: f64 = 555.0;
 
 /// Draws the section.
 pub(super) fn show(
@@ -212,7 +218,8 @@ fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>
         default: REFERENCE_RADIUS_NM,
         tip: "Radius of the soot's particles. What the fire looks like depends on what stays the same meanwhile: the \
               number of particles (there is more soot, with the cube of the radius: brighter, denser, less \
-              transparent) or the volume of soot (it absorbs and glows as before).",
+              transparent) or the volume of soot (it absorbs and glows as before). Larger particles scatter more, with \
+              the cube of the radius.",
         idle,
     }
     .show(ui, &mut project.soot.radius_nm);
@@ -236,6 +243,14 @@ fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>
     let words = match soot.hold {
         Hold::Number => format!("{} × the file's soot, by the radius", short(factor)),
         Hold::Volume => "as much soot as the file has".to_owned(),
+    };
+    let law = project.fuel.name.soot_law(soot.model);
+    let more = law.absorption_left_out(JUDGED_NM, soot.radius_nm * METRES_PER_NM);
+    let words = if more > TOLD_ABSORPTION {
+        let percent = (100.0 * more).round();
+        format!("{words}; so large spheres would absorb {percent} % more than is computed")
+    } else {
+        words
     };
     note(ui, &idle_hold.unwrap_or(words));
 }
