@@ -14,9 +14,10 @@
 //!  7 engine       background rendering for the window: submit(Job), drain() → tiles
 //!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written
 //!  6 project      all that a person can set: the scene file, --set, presets
-//!  5 render       THE CORE: plan, march, film, passes, develop, the unbiased reference. Headless, no clock, no
-//!                 global state
-//!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot, Camera, wavelength sets
+//!  5 render       THE CORE: plan and tables; fields of scattered, thrown and bent light; ways, kernel and march; film,
+//!                 passes, develop; the unbiased reference. Headless, no clock, no global state
+//!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot and how it bends light, Camera,
+//!                 Stage, wavelength sets
 //!  3 volume       grids in memory and on disk, field mappings, the built-in flames
 //!  2 physics      laws: f64, SI, no grids, no pictures
 //!    colour       the standard observer, adaptation, display
@@ -34,6 +35,10 @@
 //!   radicals glow; **optical depth** τ = ∫ σ ds.
 //! * **XYZ**: Σ L x̄ Δλ with the CIE 1931 2° observer, W m⁻² sr⁻¹; luminance is 683 Y cd m⁻².
 //! * **medium**: the volume's fields mapped to physical units and packed for the march.
+//! * **plan**: which effects are computed for a scene, and why; **fields**: what they need before a ray is marched.
+//! * **scattering coefficient** σ_s, **extinction** σ_t = σ_a + σ_s; **asymmetry** g: mean cosine of the scattering.
+//! * **refractivity** n − 1, of which only the difference to that of the air around bends light.
+//! * **stage**: matt surfaces that the fire lights; **backdrop**: a shining screen behind everything.
 //! * **feature**: a line, a band or a part of the radicals' light, carried at a wavelength of its own.
 //! * **film**: the only place where a spectrum becomes three numbers.
 //! * **flaw**: what could not be faithful, carried with the frame and told to the person.

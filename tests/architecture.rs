@@ -43,11 +43,19 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// Whether a file is a test module of its own: `tests.rs`, or below a folder `tests`.
+fn is_a_test(path: &Path) -> bool {
+    path.iter()
+        .any(|name| name == "tests" || name == "tests.rs")
+        && path.starts_with(Path::new(env!("CARGO_MANIFEST_DIR")).join("src"))
+}
+
 /// Source files as (room, path below src, code without comments and without its test module).
 fn code() -> Vec<(String, PathBuf, String)> {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     sources(&src)
         .into_iter()
+        .filter(|path| !is_a_test(path))
         .map(|path| {
             let below = path.strip_prefix(&src).unwrap().to_path_buf();
             let room = below

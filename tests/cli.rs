@@ -11,6 +11,7 @@ mod fire;
 mod outputs;
 mod place;
 mod spectrum;
+mod stage;
 mod view;
 
 use place::{Place, read_png};
@@ -185,7 +186,11 @@ fn statistics_have_the_keys_that_scripts_read() {
         [
             ("emission-absorption", "on"),
             ("lines", "off"),
-            ("chemiluminescence", "off")
+            ("chemiluminescence", "off"),
+            ("scattering", "off"),
+            ("refraction", "off"),
+            ("dispersion", "off"),
+            ("fire_light", "off"),
         ]
     );
     assert!(

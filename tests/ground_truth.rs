@@ -4,16 +4,18 @@ use glam::{DAffine3, DVec3, IVec3};
 use sootlight::math::Ray;
 use sootlight::physics::blackbody;
 use sootlight::render::march::Marcher;
-use sootlight::render::{Cancel, Effects, Plan, Settings, Switch, render_still};
+use sootlight::render::{Cancel, Effects, Plan, Settings, render_still};
 use sootlight::scene::{Camera, Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
 use sootlight::volume::{Border, Grid, Volume};
 
 use super::common;
 
+mod fire_light;
 mod furnace;
 mod glow;
 mod null_collision;
+mod scattering;
 mod z_test;
 
 /// Edge of the test cubes, m.
@@ -62,10 +64,8 @@ fn settings(size: u32, step_voxels: f64, set: WavelengthSet) -> Settings {
         step_voxels,
         wavelengths: set,
         samples_per_pixel: 1,
-        effects: Effects {
-            lines: Switch::Auto,
-            chemiluminescence: Switch::Auto,
-        },
+        scattering_orders: 1,
+        effects: Effects::AUTO,
     }
 }
 
@@ -225,7 +225,7 @@ fn the_f32_march_follows_its_f64_twin() {
         for y in 0..size {
             for x in 0..size {
                 let ray = view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
-                let exact = march_f64(&scene, &ray, step, &plan.wavelengths);
+                let exact = march_f64(&scene, &ray, step, &plan.tables.wavelengths);
                 let ours = frame.film.pixel(x, y).unwrap().xyz;
                 for c in 0..3 {
                     // Relative to the pixel's own brightness, with a floor where there is nothing to see.

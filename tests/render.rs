@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use sootlight::project::Job;
 use sootlight::render::pass::{self, Audience};
 use sootlight::render::{
-    Cancel, Effects, Film, Plan, Probe, Settings, SettingsError, Switch, render_pass, render_still,
+    Cancel, Effects, Film, Plan, Probe, Settings, SettingsError, render_pass, render_still,
 };
 use sootlight::scene::WavelengthSet;
 
@@ -17,10 +17,8 @@ const SETTINGS: Settings = Settings {
     step_voxels: 1.0,
     wavelengths: WavelengthSet::Fitted(6),
     samples_per_pixel: 2,
-    effects: Effects {
-        lines: Switch::Auto,
-        chemiluminescence: Switch::Auto,
-    },
+    scattering_orders: 1,
+    effects: Effects::AUTO,
 };
 
 fn pool(threads: usize) -> rayon::ThreadPool {
@@ -75,10 +73,7 @@ fn a_coarse_pass_is_the_picture_in_small() {
     let settings = Settings {
         size: [160, 200],
         samples_per_pixel: 1,
-        effects: Effects {
-            lines: Switch::Auto,
-            chemiluminescence: Switch::Auto,
-        },
+        effects: Effects::AUTO,
         ..SETTINGS
     };
     let plan = Plan::new(&scene, &settings);

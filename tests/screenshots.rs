@@ -102,6 +102,63 @@ fn of_the_presets() {
     window_after(here, "window_spectrum.png", &gas_burner, hands);
 }
 
+/// A still with an effect on and off.
+fn stills_of(folder: &Path, names: [&str; 2], switch: &str, arguments: &[&str]) {
+    for (name, state) in names.into_iter().zip(["off", "on"]) {
+        let set = format!("{switch}={state}");
+        still(folder, name, &[arguments, &["--set", &set]].concat());
+    }
+}
+
+#[test]
+#[ignore = "writes screenshots/, by the command at the top of this file"]
+fn of_the_stage() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let scene = ["--scene", "assets/scenes/crossed_logs.toml"];
+    let names = ["fire_light_off.png", "crossed_logs.png"];
+    stills_of(here, names, "effects.fire_light", &scene);
+    // Down to the controls of stage and effects.
+    let hands = "xdotool mousemove 1100 500; for i in $(seq 13); do xdotool click 5; sleep 0.05; done; sleep 8";
+    window_after(here, "window_stage.png", &scene, hands);
+}
+
+#[test]
+#[ignore = "writes screenshots/, by the command at the top of this file"]
+fn of_scattered_and_bent_light() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    let data = shared.join("data");
+    let smoky = [
+        "campfire/campfire_0022_zip_half.vdb",
+        "--size",
+        "560x700",
+        "--set",
+        "smoke.amount=2",
+        "--set",
+        "smoke.albedo=0.5",
+        "--set",
+        "view.exposure_ev=1",
+    ];
+    let names = ["scattering_off.png", "scattering_on.png"];
+    stills_of(&data, names, "effects.scattering", &smoky);
+    let hot = [
+        "pool/pool_0022_zip_half.vdb",
+        "--size",
+        "560x700",
+        "--set",
+        "stage.backdrop=checker",
+        "--set",
+        "stage.backdrop_distance_m=8",
+        "--set",
+        "stage.backdrop_luminance_cd_m2=6000",
+    ];
+    let names = ["refraction_off.png", "refraction_on.png"];
+    stills_of(&data, names, "effects.refraction", &hot);
+    let exaggerated = [&hot[..], &["--set", "air.refraction_gain=8"]].concat();
+    still(&data, "refraction_8_times.png", &exaggerated);
+}
+
 #[test]
 #[ignore = "writes screenshots/, by the command at the top of this file"]
 fn of_the_shared_volumes() {

@@ -8,6 +8,7 @@ mod opening;
 mod plots;
 mod real;
 mod shader;
+mod stage;
 mod view;
 
 use std::io::Write;

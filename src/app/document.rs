@@ -8,8 +8,12 @@ use std::sync::Arc;
 
 use super::history::History;
 use crate::colour::display::View;
-use crate::project::{CameraSettings, Job, Project, ProjectError, ViewSettings, VolumeSettings};
+use crate::project::{
+    Backdrops, CameraSettings, Job, Project, ProjectError, ViewSettings, VolumeSettings,
+};
+use crate::render::Facts;
 use crate::render::develop::Metering;
+use crate::render::plan::Decision;
 use crate::scene::{Camera, flame};
 use crate::volume::{FieldKind, Recognised, Volume, recognise};
 
@@ -28,6 +32,10 @@ pub struct Document {
     /// Brightness and white of the open volume, measured once: what the view's exposure counts from. `None` before a
     /// picture of it could be seen.
     pub metering: Option<Metering>,
+    /// Which effects the newest picture is computed with, and why; empty while nobody has decided.
+    pub decisions: Vec<Decision>,
+    /// What was found out about it.
+    pub facts: Facts,
     open: Option<Arc<OpenVolume>>,
     history: History<Step>,
     /// The last job that could be rendered.
@@ -35,6 +43,8 @@ pub struct Document {
     /// What was last asked of the open volume: the answer stands while this does.
     asked: Option<Project>,
     problem: Option<String>,
+    /// The picture behind the fire, so that it is read once.
+    backdrops: Backdrops,
 }
 
 #[derive(Debug)]
@@ -71,11 +81,14 @@ impl Document {
             project,
             fixed_size: None,
             metering: None,
+            decisions: Vec::new(),
+            facts: Facts::default(),
             open: None,
             history: History::default(),
             job: None,
             asked: None,
             problem: None,
+            backdrops: Backdrops::default(),
         }
     }
 
@@ -96,7 +109,7 @@ impl Document {
     pub fn open(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
         // The built-in flame can be rendered: there it is a setting that cannot, which a person can change.
         if !volume.sources.is_empty() {
-            self.project.job(&volume)?;
+            self.project.job_keeping(&volume, &mut self.backdrops)?;
         }
         self.put(volume);
         self.history = History::default();
@@ -130,7 +143,7 @@ impl Document {
         };
         project.camera = CameraSettings::default();
         change(&mut project);
-        project.job(&volume)?;
+        project.job_keeping(&volume, &mut self.backdrops)?;
         let before = self.step();
         self.project = project;
         self.put_after(before, volume);
@@ -142,7 +155,7 @@ impl Document {
     /// # Errors
     /// [`ProjectError`]: it cannot be rendered with these settings. Everything stays as it was.
     pub fn complete(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
-        self.project.job(&volume)?;
+        self.project.job_keeping(&volume, &mut self.backdrops)?;
         let before = self.step();
         self.project.volume.path.clone_from(&volume.sources);
         self.put_after(before, volume);
@@ -215,7 +228,7 @@ impl Document {
         if asked == Some(&sized) {
             return self.job.as_ref();
         }
-        match sized.job(volume) {
+        match sized.job_keeping(volume, &mut self.backdrops) {
             Ok(job) => {
                 self.job = Some(job);
                 self.problem = None;

@@ -243,7 +243,15 @@ fn export(
     if std::fs::metadata(&order.path).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
         return Err(NotExported::NoFile(order.path.display().to_string()));
     }
-    check_target(&order.path, &order.volume.sources)?;
+    let picture = order.project.stage.backdrop_picture.clone();
+    let sources: Vec<_> = order
+        .volume
+        .sources
+        .iter()
+        .cloned()
+        .chain(picture)
+        .collect();
+    check_target(&order.path, &sources)?;
     let still = Still::new(&order.project, &order.volume, order.metering)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()

@@ -1,16 +1,33 @@
 //! Opening volumes: what is asked for, what came of it, and what is shown where it failed.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::files::{Outcome, Request};
 use super::{App, Document};
-use crate::project::{CameraSettings, Preset, ProjectError, VolumeSettings};
+use crate::project::{BackdropKind, CameraSettings, Preset, ProjectError, VolumeSettings};
 use crate::volume::{BuiltIn, Volume};
 
+/// Whether a file is a picture by its name: it goes behind the fire.
+pub(super) fn is_picture(path: &Path) -> bool {
+    let ending = path.extension();
+    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
+}
+
 impl App {
-    /// Opens files as if they had been dropped on the window.
+    /// Opens files as if they had been dropped on the window: volumes, or one picture for the backdrop.
     pub fn open(&mut self, paths: Vec<PathBuf>) {
+        if let [path] = paths.as_slice()
+            && is_picture(path)
+            && self.document.volume().is_some()
+        {
+            self.document.change(|document| {
+                let stage = &mut document.project.stage;
+                stage.backdrop = BackdropKind::Picture;
+                stage.backdrop_picture = Some(path.clone());
+            });
+            return;
+        }
         let request = match (self.document.wants_a_partner(), paths.as_slice()) {
             (_, []) => return,
             (Some(open), [path]) => Request::Partner(Arc::clone(open), path.clone()),

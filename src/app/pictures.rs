@@ -3,9 +3,11 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::App;
+use super::{App, Document};
+use crate::engine::picture::Progress;
 use crate::engine::{Generation, Picture};
 use crate::project::Job;
+use crate::render::Facts;
 
 /// So long a changed job waits for the first picture of the one before it.
 const LONGEST_WAIT: Duration = Duration::from_millis(250);
@@ -54,6 +56,7 @@ impl App {
         for update in self.engine.drain() {
             self.picture.take(update);
         }
+        learn(&mut self.document, &self.picture.progress);
         if self.renders_newest()
             && let Some(submitted) = &mut self.submitted
         {
@@ -102,4 +105,23 @@ impl App {
             }
         }
     }
+}
+
+/// Takes over what the newest picture's plan decided, and what was found out on the way. What is not known yet of a
+/// picture that has just begun stays as it was, so that words do not flicker while a hand drags.
+fn learn(document: &mut Document, progress: &Progress) {
+    if !progress.decisions.is_empty() && progress.decisions != document.decisions {
+        document.decisions.clone_from(&progress.decisions);
+    }
+    let is_on = |effect: &str| {
+        let decided = document.decisions.iter().find(|it| it.effect == effect);
+        decided.is_some_and(|decision| decision.on)
+    };
+    let newer =
+        |found: Option<f64>, known: Option<f64>, effect| found.or(known).filter(|_| is_on(effect));
+    let (found, known) = (progress.facts, document.facts);
+    document.facts = Facts {
+        largest_shift_px: newer(found.largest_shift_px, known.largest_shift_px, "refraction"),
+        orders_left_out: newer(found.orders_left_out, known.orders_left_out, "scattering"),
+    };
 }

@@ -75,6 +75,7 @@ impl CliError {
     pub(super) fn project(source: ProjectError) -> Self {
         match source {
             ProjectError::NothingToRender { .. } => Self::Said(source.to_string()),
+            ProjectError::Picture(_) => Self::failed("the backdrop cannot be shown", source),
             _ => Self::setting("this cannot be rendered as it is set", source),
         }
     }

@@ -14,7 +14,7 @@ impl Render {
     /// Does it. The clock is read here only: what the core makes does not depend on time.
     pub(super) fn run(&self) -> Result<(), CliError> {
         // A picture that could not be written is not worth its rendering.
-        export::check_target(&self.output, &self.project.volume.path)
+        export::check_target(&self.output, &self.project.sources())
             .and_then(|()| self.stats.as_deref().map_or(Ok(()), export::check_writable))
             .map_err(|error| CliError::failed("nothing was rendered", error))?;
         let pool = rayon::ThreadPoolBuilder::new()

@@ -7,7 +7,6 @@ use super::error::CliError;
 use super::{load, output};
 use crate::export;
 use crate::project::Job;
-use crate::scene::Air;
 use crate::scene::Local;
 use crate::scene::curves::{Curves, Row, USUAL_PLACE, peak_of};
 
@@ -106,7 +105,7 @@ impl Spectrum {
         line(format!(
             "air: {} K, {} Pa, humidity {}, {} ppm CO2: {:.6} of its molecules are water",
             flame.air.temperature_k,
-            Air::PRESSURE_PA,
+            flame.air.pressure_pa,
             flame.air.humidity,
             flame.air.co2_ppm,
             curves.gas().air().water()

@@ -7,6 +7,7 @@ use crate::colour::display::Curve;
 use crate::project::{Job, Project};
 use crate::render::develop::{Metering, ViewParams};
 use crate::render::{Flaws, Frame};
+use crate::scene::stage::Pattern;
 use crate::scene::{Scene, WavelengthSet};
 
 /// Wall-clock seconds of each step.
@@ -48,9 +49,15 @@ impl Stats<'_> {
             "rays": self.frame.rays,
             "samples": self.frame.samples,
             "plan": self.plan(),
+            "facts": {
+                "largest_shift_px": self.frame.facts.largest_shift_px.map(finite),
+                "orders_left_out": self.frame.facts.orders_left_out.map(finite),
+            },
             "flaws": self.flaws.iter().collect::<Vec<_>>(),
             "settings": self.settings(),
             "fire": self.fire(),
+            "air": self.air(),
+            "stage": self.stage(),
             // What --scene would read, were it TOML: the same picture again.
             "scene": json!(self.project),
             "exposure": self.exposure(),
@@ -91,6 +98,44 @@ impl Stats<'_> {
             "salt": flame.glow.salt.name(),
             "salt_ppm": finite(flame.glow.salt_ppm),
             "blue_glow": finite(flame.glow.radicals),
+            // Null where it is that of spheres of the radius, or nothing is to scatter.
+            "asymmetry": flame.scattering.and_then(|it| it.asymmetry).map(finite),
+            "smoke_albedo": flame.scattering.map(|it| finite(it.smoke_albedo)),
+        })
+    }
+
+    /// The air around, and how it is asked to bend light.
+    fn air(&self) -> Value {
+        let flame = &self.job.flame;
+        json!({
+            "temperature_k": finite(flame.air.temperature_k),
+            "pressure_pa": finite(flame.air.pressure_pa),
+            "humidity": finite(flame.air.humidity),
+            "saturation": self.project.air.saturation,
+            "co2_ppm": finite(flame.air.co2_ppm),
+            "refraction_gain": flame.bending.map(|it| finite(it.gain)),
+        })
+    }
+
+    /// What stands around, with what was not set.
+    fn stage(&self) -> Value {
+        let stage = &self.job.stage;
+        let backdrop = stage.backdrop.as_ref().map(|backdrop| {
+            json!({
+                "pattern": self.project.stage.backdrop,
+                "distance_m": finite(backdrop.distance_m),
+                "square_m": match backdrop.pattern {
+                    Pattern::Checker { square_m } => finite(square_m),
+                    Pattern::Gradient | Pattern::Picture(_) => Value::Null,
+                },
+                "luminance_cd_m2": finite(backdrop.luminance_cd_m2),
+            })
+        });
+        json!({
+            "ground_height_m": stage.ground.map(|ground| finite(ground.height_m)),
+            "spheres": stage.spheres.len(),
+            "logs": stage.logs.len(),
+            "backdrop": backdrop,
         })
     }
 
@@ -105,6 +150,7 @@ impl Stats<'_> {
                 WavelengthSet::Plain(_) => "plain",
             },
             "samples_per_pixel": settings.samples_per_pixel,
+            "scattering_orders": settings.scattering_orders,
             "interpolation": self.job.flame.interpolation.name(),
         })
     }

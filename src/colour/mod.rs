@@ -10,6 +10,7 @@ pub mod display;
 pub mod false_colour;
 mod gamut;
 mod hue;
+pub mod reflectance;
 pub mod xyz;
 
 #[cfg(test)]

@@ -22,7 +22,8 @@ use rayon::ThreadPool;
 pub use picture::Picture;
 
 use crate::project::Job;
-use crate::render::{Cancel, Flaws, Pass, Plan, Tile, pass, render_pass};
+use crate::render::plan::Decision;
+use crate::render::{Cancel, Facts, Flaws, Pass, Plan, Tile, pass, render_pass};
 use crate::scene::Scene;
 
 /// Which submit something belongs to.
@@ -51,6 +52,8 @@ pub enum News {
         bake: Duration,
         /// What the settings cannot show faithfully.
         flaws: Flaws,
+        /// Which effects are computed, and why.
+        decisions: Vec<Decision>,
     },
     /// A tile of the running pass.
     Tile(Tile),
@@ -62,6 +65,8 @@ pub enum News {
         since_submit: Duration,
         /// Time the pass took.
         took: Duration,
+        /// What has been found out about the picture so far.
+        facts: Facts,
     },
     /// All passes are whole.
     Finished,
@@ -267,6 +272,7 @@ impl Shared {
             size: job.settings.size,
             bake: begun.elapsed(),
             flaws: plan.flaws.clone(),
+            decisions: plan.decisions.clone(),
         };
         self.publish(generation, started);
         for (index, pass) in passes.iter().enumerate() {
@@ -284,6 +290,7 @@ impl Shared {
                     index,
                     since_submit: submitted.elapsed(),
                     took,
+                    facts: plan.facts(),
                 },
             );
         }

@@ -4,7 +4,8 @@
 use std::time::Duration;
 
 use super::{Generation, News, Update};
-use crate::render::{Film, Flaws, Pass, Tile};
+use crate::render::plan::Decision;
+use crate::render::{Facts, Film, Flaws, Pass, Tile};
 
 /// The film on show and how far it is.
 #[derive(Debug)]
@@ -49,6 +50,10 @@ pub struct Progress {
     pub finished: bool,
     /// What the settings cannot show faithfully.
     pub flaws: Flaws,
+    /// Which effects are computed, and why.
+    pub decisions: Vec<Decision>,
+    /// What has been found out about the picture so far.
+    pub facts: Facts,
     /// What went wrong, if something did.
     pub failure: Option<String>,
 }
@@ -98,9 +103,11 @@ impl Picture {
                 passes,
                 size,
                 flaws,
+                decisions,
                 ..
             } => {
                 progress.flaws = flaws;
+                progress.decisions = decisions;
                 progress.rays_of_pass = passes.first().map_or(0, |pass| rays_of(pass, size));
                 progress.passes = passes;
                 // The first pass writes every pixel, so a sheet that was not finished serves again.
@@ -122,8 +129,10 @@ impl Picture {
             News::PassDone {
                 index,
                 since_submit,
+                facts,
                 ..
             } => {
+                progress.facts = facts;
                 progress.done = index + 1;
                 progress.elapsed = since_submit;
                 progress.first_picture.get_or_insert(since_submit);

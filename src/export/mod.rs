@@ -43,7 +43,7 @@ pub enum ExportError {
         source: std::io::Error,
     },
     /// The picture would take the place of what it is made from.
-    #[error("{path} is a file of the volume itself: choose another name", path = path.display())]
+    #[error("{path} is a file that the picture is made from: choose another name", path = path.display())]
     OwnVolume {
         /// The file.
         path: PathBuf,

@@ -34,7 +34,7 @@ pub struct Written {
 }
 
 /// Whether a picture could be written here, asked before the work that it is to hold. `sources` are the files that
-/// the volume is read from.
+/// it is made from: the volume's, and the backdrop's.
 ///
 /// # Errors
 /// [`ExportError`]: the path is one of the sources, or as [`check_writable`].
@@ -167,6 +167,7 @@ mod tests {
             rays: 0,
             samples: 0,
             decisions: Vec::new(),
+            facts: crate::render::Facts::default(),
             flaws: Flaws::default(),
         };
         let still = Still::new(&project, &Arc::new(procedural::torch()), locked);

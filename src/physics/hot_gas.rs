@@ -25,7 +25,7 @@
 //! Combustion* (2000), eq. 2.30.
 
 use super::moist_air::{
-    AMBIENT_RANGE_K, AirError, Ambient, Dispersion, MoistAir, STANDARD_COMPRESSIBILITY,
+    AMBIENT_RANGE_K, AirError, Ambient, Dispersion, Edition, MoistAir, STANDARD_COMPRESSIBILITY,
     STANDARD_PRESSURE_PA, STANDARD_TEMPERATURE_K,
 };
 
@@ -99,7 +99,15 @@ impl FireGas {
     /// # Errors
     /// [`AirError`] names the number that is out of range, or that air cannot hold so much water.
     pub fn new(ambient: &Ambient, fuel: Option<Atoms>) -> Result<Self, AirError> {
-        let air = MoistAir::new(ambient)?;
+        Self::by(Edition::default(), ambient, fuel)
+    }
+
+    /// [`FireGas::new`] in a chosen edition of Ciddor's equation.
+    ///
+    /// # Errors
+    /// As [`FireGas::new`].
+    pub fn by(edition: Edition, ambient: &Ambient, fuel: Option<Atoms>) -> Result<Self, AirError> {
+        let air = MoistAir::by(edition, ambient)?;
         let air_factor = moist_air_factor(air.water());
         let products_factor = fuel.and_then(Atoms::products_factor).unwrap_or(air_factor);
         Ok(Self {

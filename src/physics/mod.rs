@@ -14,6 +14,7 @@ pub mod constants;
 pub mod growth;
 pub mod hot_gas;
 pub mod lines;
+pub mod mie;
 pub mod moist_air;
 pub mod phase;
 pub mod saturation;

@@ -18,6 +18,10 @@
 //! for propane soot, σ_a is low by 2 % at x = 0.17, 5 % at 0.30, 11 % at 0.49 and 13 % at 0.59; σ_s is within 1 % up to
 //! x = 0.49, then 7 % high at 0.69 and 29 % at 0.91. At 550 nm those x are R = 15, 26, 43, 52, 60 and 80 nm.
 //!
+//! Scattering is therefore that of [`super::mie`]: the ratio above times Q_sca of the sphere over its small-particle
+//! limit, and the sphere's mean cosine. Absorption stays the small-particle law, for that is what a file's volume
+//! fraction was measured with; [`SootLaw::absorption_left_out`] says what Mie's series would add.
+//!
 //! **The law of Hottel and Broughton** replaces the dispersion of the index by a power found by experiment:
 //! σ_a(λ) = σ_a(550 nm)·(550 nm/λ)^1.39, with E(m) taken at 550 nm only. It was measured in visible light.
 //!
@@ -31,6 +35,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::constants::METRES_PER_NM;
+use super::mie::{self, Efficiencies};
 use super::soot_index::{self, ComplexIndex, SootIndex};
 
 /// Radius at which a soot volume fraction given by a file is taken to hold, nm. Midway in the sizes found in flames.
@@ -189,13 +194,52 @@ impl SootLaw {
         }
     }
 
-    /// σ_s/σ_a = (2/3) x³ F/E. Scattering is formed as σ_a times this, because R⁶ underflows single precision.
+    /// σ_s/σ_a = (2/3) x³ F/E in the limit of small particles. Scattering is formed as σ_a times a ratio, because R⁶
+    /// underflows single precision.
     ///
     /// Preconditions: `lambda_nm` > 0, `radius_m` ≥ 0.
-    pub fn scattering_ratio(self, lambda_nm: f64, radius_m: f64) -> f64 {
+    pub fn small_particle_scattering_ratio(self, lambda_nm: f64, radius_m: f64) -> f64 {
         let index = self.complex_index(lambda_nm);
         let x = size_parameter(lambda_nm, radius_m);
         2.0 / 3.0 * x.powi(3) * index.scattering_function() / index.absorption_function()
+    }
+
+    /// σ_s of spheres of this radius, by Mie's series, over the small-particle σ_a: what the absorption of this law is
+    /// multiplied by.
+    ///
+    /// Preconditions: `lambda_nm` > 0, `radius_m` ≥ 0.
+    pub fn scattering_ratio(self, lambda_nm: f64, radius_m: f64) -> f64 {
+        let small = self.small_particle_scattering_ratio(lambda_nm, radius_m);
+        let spheres = self.spheres(lambda_nm, radius_m);
+        small * spheres.map_or(1.0, |[mie, limit]| mie.scattering / limit.scattering)
+    }
+
+    /// Mean cosine of the scattering of spheres of this radius, by Mie's series; 0 for the smallest.
+    ///
+    /// Preconditions: `lambda_nm` > 0, `radius_m` ≥ 0.
+    pub fn asymmetry(self, lambda_nm: f64, radius_m: f64) -> f64 {
+        let spheres = self.spheres(lambda_nm, radius_m);
+        spheres.map_or(0.0, |[mie, _]| mie.asymmetry)
+    }
+
+    /// By which share Mie's absorption exceeds that of small particles, which is what is computed: 0.05 is 5 %.
+    ///
+    /// Preconditions: `lambda_nm` > 0, `radius_m` ≥ 0.
+    pub fn absorption_left_out(self, lambda_nm: f64, radius_m: f64) -> f64 {
+        let spheres = self.spheres(lambda_nm, radius_m);
+        spheres.map_or(0.0, |[mie, limit]| mie.absorption / limit.absorption - 1.0)
+    }
+
+    /// A sphere of this radius by Mie's series, and in the limit of small ones; `None` where they do not differ.
+    fn spheres(self, lambda_nm: f64, radius_m: f64) -> Option<[Efficiencies; 2]> {
+        let index = self.complex_index(lambda_nm);
+        let x = size_parameter(lambda_nm, radius_m);
+        (x >= mie::SMALLEST).then(|| {
+            [
+                Efficiencies::of_sphere(index, x),
+                Efficiencies::of_small_sphere(index, x),
+            ]
+        })
     }
 }
 

@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+use super::backdrops::PictureError;
+use super::ranges::MOST_SHAPES;
+use crate::physics::moist_air::AirError;
 use crate::render::SettingsError;
 use crate::scene::PackingError;
 use crate::scene::camera::CameraError;
@@ -72,6 +75,47 @@ pub enum ProjectError {
         /// The grids there are.
         available: String,
     },
+    /// A shape on the stage is nowhere, or has no size.
+    #[error(
+        "{key}: the {what} of {name} {number} is {value} m: it must lie between {min} and {max} m"
+    )]
+    Shape {
+        /// Dotted key of the scene file.
+        key: &'static str,
+        /// What the list is of.
+        name: &'static str,
+        /// Which of the list, counted from 1.
+        number: usize,
+        /// Which of its numbers.
+        what: &'static str,
+        /// What was set.
+        value: f64,
+        /// Least allowed.
+        min: f64,
+        /// Greatest allowed.
+        max: f64,
+    },
+    /// A list of shapes is too long.
+    #[error(
+        "{key} has {count} entries: at most {MOST_SHAPES} of a kind can stand on the stage; take some away"
+    )]
+    TooManyShapes {
+        /// Dotted key of the scene file.
+        key: &'static str,
+        /// How many were set.
+        count: usize,
+    },
+    /// A backdrop of a picture that is not named.
+    #[error(
+        "stage.backdrop is picture, but no picture is named: set stage.backdrop_picture to a PNG file"
+    )]
+    NoPicture,
+    /// The backdrop's picture cannot be had.
+    #[error("stage.backdrop_picture: {0}")]
+    Picture(#[from] PictureError),
+    /// The air cannot be as it is set.
+    #[error("{0} (air.humidity, air.temperature_k, air.pressure_pa)")]
+    Air(#[from] AirError),
     /// A number of the render section.
     #[error(transparent)]
     Settings(#[from] SettingsError),

@@ -69,7 +69,7 @@ pub enum SceneFileError {
     /// A path in it is not text, which TOML must be.
     #[error("the path {path} cannot stand in a scene file, because it is not UTF-8: rename it", path = path.display())]
     NotUnicode {
-        /// The volume's path.
+        /// The path.
         path: PathBuf,
     },
 }
@@ -94,7 +94,7 @@ impl Project {
         check_keys(text, spans.get_ref(), &values, "")?;
         // Every key was checked alone, so what is left can only be the file as a whole.
         let mut project = Self::deserialize(values).map_err(|error| syntax(&error))?;
-        for path in &mut project.volume.path {
+        for path in project.paths_mut() {
             *path = base_dir.join(&path);
         }
         Ok(project)
@@ -145,7 +145,7 @@ impl Project {
             .unwrap_or(Path::new("."));
         let base = std::path::absolute(folder).map_err(failed)?;
         let mut portable = self.clone();
-        for path in &mut portable.volume.path {
+        for path in portable.paths_mut() {
             if path.to_str().is_none() {
                 return Err(SceneFileError::NotUnicode { path: path.clone() });
             }
@@ -155,6 +155,17 @@ impl Project {
                 .map_or(absolute.clone(), Path::to_owned);
         }
         write_whole(path, portable.to_toml().as_bytes()).map_err(failed)
+    }
+
+    /// The files that it is made from: the volume's, and the backdrop's picture.
+    pub fn sources(&self) -> Vec<PathBuf> {
+        let picture = self.stage.backdrop_picture.iter();
+        self.volume.path.iter().chain(picture).cloned().collect()
+    }
+
+    fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let picture = self.stage.backdrop_picture.iter_mut();
+        self.volume.path.iter_mut().chain(picture)
     }
 
     /// The project as TOML.
@@ -292,13 +303,18 @@ mod tests {
             folder.path().join("deep/a.vdb"),
             folder.path().join("b.vdb"),
         ];
+        project.stage.backdrop_picture = Some(folder.path().join("deep/behind.png"));
         project.write(&file).unwrap();
         let text = fs::read_to_string(&file).unwrap();
+        assert!(text.contains("backdrop_picture = \"behind.png\""), "{text}");
         assert!(text.contains("[\"a.vdb\", "), "{text}");
         assert_eq!(Project::read(&file).unwrap(), project);
         let text = "volume.path = \"a.vdb\"";
         let read = Project::from_toml(text, Path::new("scenes")).unwrap();
         assert_eq!(read.volume.path, [Path::new("scenes/a.vdb")]);
+        let text = "stage.backdrop_picture = \"a.png\"";
+        let read = Project::from_toml(text, Path::new("scenes")).unwrap();
+        assert_eq!(read.sources(), [Path::new("scenes/a.png")]);
     }
 
     #[test]

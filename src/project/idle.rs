@@ -4,7 +4,10 @@
 //! compared with the job itself.
 
 use super::job::Job;
+use crate::physics::moist_air::Edition;
 use crate::physics::soot::{Hold, SootModel};
+use crate::render::Switch;
+use crate::render::plan::Decision;
 use crate::scene::{FlameParams, Fuel};
 use crate::volume::FieldMap;
 
@@ -35,21 +38,86 @@ pub enum Control {
     Humidity,
     /// `air.co2_ppm`
     Co2,
+    /// `air.pressure_pa`
+    Pressure,
+    /// `air.temperature_k`
+    AirTemperature,
+    /// `air.saturation`
+    Saturation,
+    /// `air.refraction_gain`
+    RefractionGain,
+    /// `effects.dispersion`
+    Dispersion,
+    /// `soot.asymmetry`
+    Asymmetry,
+    /// `smoke.albedo`
+    SmokeAlbedo,
+    /// `stage.ground_colour`, `stage.sphere_colour`, `stage.log_colour`
+    StageColour,
 }
 
-/// Why a control cannot change this job's picture; `None` if it can.
-pub fn why_idle(job: &Job, control: Control) -> Option<String> {
-    let flame = &job.flame;
-    let sootless = job.soot_follows_fuel && flame.fuel.row().soot_yield <= 0.0;
-    let is_none = |map: &Option<FieldMap>, amount: f64| map.is_none() || amount <= 0.0;
-    let no_soot = is_none(&flame.maps.soot, flame.soot_amount)
-        && is_none(&flame.maps.smoke, flame.smoke_amount);
-    let words = match control {
+/// Why something that acts through an effect does not, as the words after its name.
+fn without(effect: &str, switch: Switch, decisions: &[Decision], nothing: &str) -> String {
+    let decided = decisions.iter().find(|it| it.effect == effect && !it.on);
+    match (switch, decided) {
+        (Switch::Off, _) => format!("{effect}, which is off: switch it on under Effects"),
+        (_, Some(_)) => format!("{effect}, which is left out here: Effects says why"),
+        _ => format!("{effect}; {nothing}"),
+    }
+}
+
+/// Why a control cannot change this job's picture; `None` if it can. `decisions` are those of the job's plan; empty while
+/// there is none yet.
+pub fn why_idle(job: &Job, control: Control, decisions: &[Decision]) -> Option<String> {
+    // What the plan leaves out makes no difference, whatever was asked for.
+    let is_left_out = |effect: &str| decisions.iter().any(|it| it.effect == effect && !it.on);
+    let mut flame = job.flame.clone();
+    flame.scattering = flame.scattering.filter(|_| !is_left_out("scattering"));
+    flame.bending = flame.bending.filter(|_| !is_left_out("refraction"));
+    let dark = is_left_out("fire_light") || job.settings.effects.fire_light == Switch::Off;
+    is_idle(job, &flame, dark, control).then(|| words(job, &flame, control, decisions))
+}
+
+fn is_none(map: Option<&FieldMap>, amount: f64) -> bool {
+    map.is_none() || amount <= 0.0
+}
+
+fn has_no_soot(flame: &FlameParams) -> bool {
+    is_none(flame.maps.soot.as_ref(), flame.soot_amount)
+        && is_none(flame.maps.smoke.as_ref(), flame.smoke_amount)
+}
+
+fn is_sootless(job: &Job) -> bool {
+    job.soot_follows_fuel && job.flame.fuel.row().soot_yield <= 0.0
+}
+
+/// The reason, for a control that is idle.
+fn words(job: &Job, flame: &FlameParams, control: Control, decisions: &[Decision]) -> String {
+    let (no_soot, sootless) = (has_no_soot(flame), is_sootless(job));
+    let effects = &job.settings.effects;
+    let scattering = || {
+        without(
+            "scattering",
+            effects.scattering,
+            decisions,
+            "there is none here",
+        )
+    };
+    let refraction = || {
+        let nothing = "nothing behind the fire shows it: add a backdrop or a stage";
+        // Nothing else keeps the plan from it.
+        without("refraction", effects.refraction, &[], nothing)
+    };
+    let words: &str = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
             "the file says how much soot there is, and this soot model has one soot for all fuels: choose another below"
         }
         Control::Heat if no_soot => "there is no soot, and no gas that glows by its heat",
-        Control::SootModel | Control::Hold | Control::SootRadius if no_soot => "there is no soot",
+        Control::SootModel | Control::Hold | Control::SootRadius | Control::Asymmetry
+            if no_soot =>
+        {
+            "there is no soot"
+        }
         Control::SootModel => "the soot models agree here",
         Control::Hold => "at 21.25 nm, where the file's soot holds, both are the same",
         Control::Heat => "the temperature does not matter here",
@@ -57,10 +125,10 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
             "only the blue glow reads it, and there is none: what glows is said by “Soot from”"
         }
         Control::Fuel => "the soot of these fuels absorbs alike under this soot model",
-        Control::SootRadius => {
-            "with its volume kept, soot of any radius absorbs and glows alike; scattering, which would tell, is not \
-             computed"
-        }
+        Control::SootRadius => &format!(
+            "with its volume kept, soot of any radius absorbs and glows alike; it would tell through {}",
+            scattering()
+        ),
         Control::SootAmount if sootless => "this fuel burns without soot",
         Control::SootAmount => "this volume has no soot field",
         Control::SmokeAmount => "this volume has no smoke field: choose a grid for it under Volume",
@@ -71,15 +139,44 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::BlueGlow => {
             "no field says where gas burns: choose one for “Flame from” under Volume"
         }
-        Control::Humidity => "humidity acts through refraction; nothing behind the fire shows it",
-        Control::Co2 => "CO₂ acts through refraction; nothing behind the fire shows it",
+        Control::Humidity | Control::Saturation => {
+            &format!("humidity acts through {}", refraction())
+        }
+        Control::Co2 => &format!("CO₂ acts through {}", refraction()),
+        Control::Pressure => &format!("pressure acts through {}", refraction()),
+        Control::AirTemperature => &format!(
+            "the file says how hot all its gas is; around it heat acts through {}",
+            refraction()
+        ),
+        Control::RefractionGain => &format!("it acts through {}", refraction()),
+        Control::Dispersion => &format!("it is a part of {}", refraction()),
+        Control::SmokeAlbedo if is_none(flame.maps.smoke.as_ref(), flame.smoke_amount) => {
+            "there is no smoke"
+        }
+        Control::Asymmetry | Control::SmokeAlbedo => &format!("it acts through {}", scattering()),
+        Control::StageColour => &format!(
+            "colours act through {}",
+            without(
+                "fire_light",
+                effects.fire_light,
+                decisions,
+                "nothing is lit"
+            )
+            .replace('_', " ")
+        ),
     };
+    words.to_owned()
+}
+
+/// Whether a control makes no difference to a job whose flame is what its plan makes of it.
+fn is_idle(job: &Job, flame: &FlameParams, dark: bool, control: Control) -> bool {
+    let (no_soot, sootless) = (has_no_soot(flame), is_sootless(job));
     let same = |change: &dyn Fn(&mut FlameParams)| {
         let mut other = flame.clone();
         change(&mut other);
         flame.gives_same_light_as(&other)
     };
-    let idle = match control {
+    match control {
         Control::SootModel => {
             no_soot
                 || SootModel::ALL
@@ -103,124 +200,28 @@ pub fn why_idle(job: &Job, control: Control) -> Option<String> {
         Control::SmokeAmount => same(&|f| f.smoke_amount += 1.0),
         Control::SaltAmount => same(&|f| f.glow.salt_ppm += 1.0),
         Control::BlueGlow => same(&|f| f.glow.radicals += 1.0),
-        Control::Humidity => same(&|f| f.air.humidity = 1.0 - f.air.humidity),
+        Control::Humidity => {
+            // Air without any water and air that is full of it.
+            [0.0, 1.0]
+                .into_iter()
+                .all(|humidity| same(&|f| f.air.humidity = humidity))
+        }
         Control::Co2 => same(&|f| f.air.co2_ppm += 100.0),
-    };
-    idle.then(|| words.to_owned())
+        Control::Pressure => same(&|f| f.air.pressure_pa *= 1.5),
+        Control::AirTemperature => same(&|f| f.air.temperature_k += 10.0),
+        Control::Saturation => {
+            let both = [Edition::Ciddor1996, Edition::Nist];
+            both.into_iter()
+                .all(|edition| same(&|f| f.air.edition = edition))
+        }
+        Control::RefractionGain | Control::Dispersion => flame.bending.is_none(),
+        Control::Asymmetry => no_soot || flame.scattering.is_none(),
+        Control::SmokeAlbedo => {
+            is_none(flame.maps.smoke.as_ref(), flame.smoke_amount) || flame.scattering.is_none()
+        }
+        Control::StageColour => dark,
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use std::sync::Arc;
-
-    use super::super::Project;
-    use super::*;
-    use crate::volume::procedural;
-
-    fn idle(assignments: &[&str], control: Control) -> Option<String> {
-        let mut project = Project::default();
-        project.set_all(assignments.iter().copied()).unwrap();
-        let job = project.job(&Arc::new(procedural::torch())).unwrap();
-        why_idle(&job, control)
-    }
-
-    #[test]
-    fn a_fuel_acts_through_models_that_look_at_it_and_where_it_says_how_much_soot_there_is() {
-        // The built-in flame takes its soot from the fuel; numbers by hand settle how much there is.
-        assert_eq!(idle(&[], Control::Fuel), None);
-        let given = "volume.soot.scale=1";
-        assert!(
-            idle(&[given], Control::Fuel)
-                .unwrap()
-                .contains("soot model")
-        );
-        for model in ["dalzell-sarofim", "hottel-broughton"] {
-            let set = format!("soot.model={model}");
-            assert_eq!(idle(&[given, &set], Control::Fuel), None, "{model}");
-        }
-        assert_eq!(idle(&[given, "fuel.salt=sodium"], Control::Fuel), None);
-    }
-
-    #[test]
-    fn a_salt_and_the_blue_glow_say_what_they_lack() {
-        assert!(idle(&[], Control::SaltAmount).is_some());
-        assert_eq!(idle(&["fuel.salt=copper"], Control::SaltAmount), None);
-        assert!(idle(&[], Control::BlueGlow).unwrap().contains("Flame from"));
-        assert_eq!(idle(&["volume.flame.grid=soot"], Control::BlueGlow), None);
-        assert_eq!(
-            idle(&["effects.chemiluminescence=on"], Control::BlueGlow),
-            None
-        );
-        let grey = ["fuel.name=black-body", "volume.flame.grid=soot"];
-        assert!(idle(&grey, Control::BlueGlow).unwrap().contains("fuel"));
-    }
-
-    #[test]
-    fn a_fuel_without_soot_says_so_and_can_be_changed_for_another() {
-        let clean = "fuel.name=methanol";
-        let words = idle(&[clean], Control::SootAmount).unwrap();
-        assert!(words.contains("without soot"), "{words}");
-        for control in [Control::SootModel, Control::SootRadius, Control::Hold] {
-            let words = idle(&[clean], control);
-            assert_eq!(words.as_deref(), Some("there is no soot"), "{control:?}");
-        }
-        assert_eq!(idle(&[clean], Control::Fuel), None);
-        // Where the amount was said by hand, the fuel does not say it.
-        let given = [clean, "volume.soot.scale=1"];
-        assert_eq!(idle(&given, Control::SootAmount), None);
-    }
-
-    #[test]
-    fn heat_acts_where_gas_glows_without_soot() {
-        let salted = ["fuel.name=methanol", "fuel.salt=sodium"];
-        assert_eq!(idle(&salted, Control::Heat), None);
-        let by_heat = ["soot.amount=0", "effects.chemiluminescence=on"];
-        assert_eq!(idle(&by_heat, Control::Heat), None);
-        let blue = ["soot.amount=0", "volume.flame.grid=soot"];
-        assert!(idle(&blue, Control::Heat).is_some());
-    }
-
-    #[test]
-    fn a_radius_acts_if_the_number_of_particles_is_kept() {
-        assert_eq!(idle(&[], Control::SootRadius), None);
-        assert!(idle(&["soot.hold=volume"], Control::SootRadius).is_some());
-        assert_eq!(
-            idle(&["soot.amount=0", "smoke.amount=0"], Control::SootRadius).as_deref(),
-            Some("there is no soot")
-        );
-    }
-
-    #[test]
-    fn nothing_about_soot_acts_where_there_is_none() {
-        let none = ["soot.amount=0", "smoke.amount=0"];
-        for control in [
-            Control::SootModel,
-            Control::SootRadius,
-            Control::Hold,
-            Control::Heat,
-        ] {
-            let words = idle(&none, control);
-            assert!(words.is_some(), "{control:?}");
-        }
-        assert_eq!(idle(&[], Control::SootModel), None);
-        assert_eq!(idle(&[], Control::Heat), None);
-        assert!(idle(&[], Control::Hold).is_some());
-        assert_eq!(idle(&["soot.radius_nm=30"], Control::Hold), None);
-        assert!(idle(&["fuel.blue_glow=0"], Control::FlameField).is_some());
-        assert_eq!(idle(&["volume.flame.grid=soot"], Control::FlameField), None);
-    }
-
-    #[test]
-    fn amounts_act_on_fields_that_are_there_and_air_on_nothing_yet() {
-        assert_eq!(idle(&[], Control::SootAmount), None);
-        assert!(idle(&[], Control::SmokeAmount).is_some());
-        let smoky = ["volume.smoke.grid=temperature", "volume.smoke.scale=1e-9"];
-        assert_eq!(idle(&smoky, Control::SmokeAmount), None);
-        let sootless = [smoky[0], smoky[1], "volume.soot.grid="];
-        assert!(idle(&sootless, Control::SootAmount).is_some());
-        for control in [Control::Humidity, Control::Co2] {
-            assert!(idle(&[], control).unwrap().contains("refraction"));
-        }
-    }
-}
+mod tests;

@@ -4,14 +4,20 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::backdrops::Backdrops;
 use super::error::ProjectError;
 use super::fields::field_maps;
-use super::ranges;
-use super::settings::{Project, Up};
+use super::settings::{Project, SmokeSettings, Up};
+use super::stage::StageDefaults;
+use crate::math::Aabb;
 use crate::render::develop::ViewParams;
-use crate::render::{Effects, Flaws, Settings, SettingsError, Switch};
+use crate::render::{Flaws, Settings, SettingsError, Switch};
 use crate::scene::camera::FRAMING_FOV_DEG;
-use crate::scene::{Air, Camera, Flame, FlameParams, GlowParams, Placement, Salt, Scene, flame};
+use crate::scene::stage::Pattern;
+use crate::scene::{
+    Air, Bending, Camera, Flame, FlameParams, GlowParams, Placement, Salt, ScatteringParams, Scene,
+    Stage, flame,
+};
 use crate::volume::{
     self, About, Assumption, FieldKind, FieldMaps, Preset, Producer, UpAxis, Volume,
 };
@@ -26,6 +32,8 @@ pub struct Job {
     pub flame: FlameParams,
     /// The eye.
     pub camera: Camera,
+    /// What stands around.
+    pub stage: Stage,
     /// How accurate.
     pub settings: Settings,
     /// What is assumed or cannot be faithful, known before a ray is marched.
@@ -38,6 +46,8 @@ pub struct Job {
     pub proposed_voxel_m: f64,
     /// Whether the amount of soot is the fuel's, because the volume does not say it.
     pub soot_follows_fuel: bool,
+    /// What the stage takes where nothing is set.
+    pub stage_defaults: StageDefaults,
 }
 
 impl PartialEq for Job {
@@ -45,6 +55,7 @@ impl PartialEq for Job {
         Arc::ptr_eq(&self.volume, &other.volume)
             && self.flame.gives_same_light_as(&other.flame)
             && self.camera == other.camera
+            && is_same_stage(&self.stage, &other.stage)
             && self.settings == other.settings
     }
 }
@@ -60,6 +71,7 @@ impl Job {
         Scene {
             flame,
             camera: self.camera,
+            stage: self.stage.clone(),
         }
     }
 }
@@ -70,6 +82,18 @@ impl Project {
     /// # Errors
     /// [`ProjectError`] names the key, its value and what would be right.
     pub fn job(&self, volume: &Arc<Volume>) -> Result<Job, ProjectError> {
+        self.job_keeping(volume, &mut Backdrops::default())
+    }
+
+    /// [`Project::job`], whose backdrop's picture is kept for the next one.
+    ///
+    /// # Errors
+    /// As [`Project::job`].
+    pub fn job_keeping(
+        &self,
+        volume: &Arc<Volume>,
+        backdrops: &mut Backdrops,
+    ) -> Result<Job, ProjectError> {
         self.check_ranges()?;
         let producer = match self.volume.producer {
             Producer::Auto => volume::recognise(volume).producer,
@@ -95,8 +119,11 @@ impl Project {
             metres_per_unit,
         };
         let settings = self.settings(self.render.size)?;
-        let camera = self.camera(volume, &maps, &placement, settings.size);
+        let bounds = flame::world_bounds(volume, &maps, &placement);
+        let camera = self.camera(&bounds, settings.size);
         camera.view(settings.size)?;
+        let stage_defaults = self.stage.defaults(&bounds, &camera);
+        let stage = self.stage.stage(&stage_defaults, backdrops)?;
         let glow = self.glow(volume, &maps, &mut flaws);
         let soot_follows_fuel = self.soot_follows_fuel(volume, &preset);
         let soot_yield = if soot_follows_fuel {
@@ -104,7 +131,14 @@ impl Project {
         } else {
             1.0
         };
+        let air = Air::from(&self.air);
+        let bending = self.bending(&stage, &mut flaws);
+        if bending.is_some() {
+            air.gas(self.fuel.name)?;
+        }
         let flame = FlameParams {
+            scattering: self.scattering(&maps),
+            bending,
             maps,
             placement,
             fuel: self.fuel.name,
@@ -115,23 +149,21 @@ impl Project {
             smoke_amount: self.smoke.amount,
             glow,
             interpolation: self.render.interpolation,
-            air: Air {
-                temperature_k: self.air.temperature_k,
-                humidity: self.air.humidity,
-                co2_ppm: self.air.co2_ppm,
-            },
+            air,
         };
         flame.check(volume)?;
         Ok(Job {
             volume: Arc::clone(volume),
             flame,
             camera,
+            stage,
             settings,
             flaws,
             producer,
             proposed,
             proposed_voxel_m,
             soot_follows_fuel,
+            stage_defaults,
         })
     }
 
@@ -170,6 +202,36 @@ impl Project {
         }
     }
 
+    /// How soot and smoke are to scatter.
+    fn scattering(&self, maps: &FieldMaps) -> Option<ScatteringParams> {
+        (self.effects.scattering != Switch::Off).then(|| ScatteringParams {
+            asymmetry: self.soot.asymmetry,
+            // Of smoke that is not there nothing makes a difference.
+            smoke_albedo: if maps.smoke.is_some() && self.smoke.amount > 0.0 {
+                self.smoke.albedo
+            } else {
+                SmokeSettings::default().albedo
+            },
+        })
+    }
+
+    /// How hot gas is to bend light: only where something shows it, unless it is asked for.
+    fn bending(&self, stage: &Stage, flaws: &mut Flaws) -> Option<Bending> {
+        let computed = match self.effects.refraction {
+            Switch::Off => false,
+            Switch::Auto => stage.shows_behind(),
+            Switch::On => true,
+        };
+        let gain = self.air.refraction_gain;
+        if computed && gain > 1.0 {
+            flaws.add(format!("refraction is exaggerated {gain} times"));
+        }
+        computed.then_some(Bending {
+            gain,
+            dispersion: self.effects.dispersion == Switch::On,
+        })
+    }
+
     /// Whether the fuel says how much soot there is: the volume does not, and nobody else did.
     fn soot_follows_fuel(&self, volume: &Volume, preset: &Preset) -> bool {
         let is_about_soot =
@@ -189,10 +251,8 @@ impl Project {
             step_voxels: self.render.step_voxels.unwrap_or(step_voxels),
             wavelengths: self.render.wavelengths.unwrap_or(wavelengths),
             samples_per_pixel: self.render.samples_per_pixel.unwrap_or(samples_per_pixel),
-            effects: Effects {
-                lines: self.effects.lines,
-                chemiluminescence: self.effects.chemiluminescence,
-            },
+            scattering_orders: self.render.scattering_orders,
+            effects: self.effects.into(),
         }
         .validated()
     }
@@ -210,17 +270,10 @@ impl Project {
     }
 
     /// The camera set, with what is not set taken from one that frames the flame.
-    fn camera(
-        &self,
-        volume: &Volume,
-        maps: &FieldMaps,
-        placement: &Placement,
-        size: [u32; 2],
-    ) -> Camera {
-        let bounds = flame::world_bounds(volume, maps, placement);
+    fn camera(&self, bounds: &Aabb, size: [u32; 2]) -> Camera {
         let set = &self.camera;
         let fov_deg = set.fov_deg.unwrap_or(FRAMING_FOV_DEG);
-        let framing = Camera::framing(&bounds, f64::from(size[0]) / f64::from(size[1]), fov_deg);
+        let framing = Camera::framing(bounds, f64::from(size[0]) / f64::from(size[1]), fov_deg);
         Camera {
             eye: set.eye.unwrap_or(framing.eye),
             target: set.target.unwrap_or(framing.target),
@@ -228,74 +281,26 @@ impl Project {
             fov_deg,
         }
     }
+}
 
-    /// Checks every number that can be judged without a volume.
-    ///
-    /// # Errors
-    /// [`ProjectError`] names the key, its value and its range.
-    pub fn check(&self) -> Result<(), ProjectError> {
-        self.check_ranges()?;
-        self.settings(self.render.size)?;
-        Ok(())
-    }
-
-    fn check_ranges(&self) -> Result<(), ProjectError> {
-        let numbers = [
-            (
-                "soot.radius_nm",
-                self.soot.radius_nm,
-                ranges::SOOT_RADIUS_NM,
-            ),
-            ("soot.amount", self.soot.amount, ranges::AMOUNT),
-            ("smoke.amount", self.smoke.amount, ranges::AMOUNT),
-            ("fuel.salt_ppm", self.fuel.salt_ppm, ranges::SALT_PPM),
-            ("fuel.blue_glow", self.fuel.blue_glow, ranges::AMOUNT),
-            (
-                "air.temperature_k",
-                self.air.temperature_k,
-                ranges::AIR_TEMPERATURE_K,
-            ),
-            ("air.humidity", self.air.humidity, ranges::HUMIDITY),
-            ("air.co2_ppm", self.air.co2_ppm, ranges::CO2_PPM),
-            (
-                "camera.fov_deg",
-                self.camera.fov_deg.unwrap_or(FRAMING_FOV_DEG),
-                ranges::FOV_DEG,
-            ),
-            (
-                "view.exposure_ev",
-                self.view.exposure_ev,
-                ranges::EXPOSURE_EV,
-            ),
-            ("view.adaptation", self.view.adaptation, ranges::ADAPTATION),
-            (
-                "view.white_k",
-                self.view.white_k.unwrap_or(ranges::WHITE_K[0]),
-                ranges::WHITE_K,
-            ),
-            (
-                "view.half_saturation_cd_m2",
-                self.view.half_saturation_cd_m2.unwrap_or(1.0),
-                ranges::HALF_SATURATION_CD_M2,
-            ),
-            (
-                "volume.voxel_size_m",
-                self.volume.voxel_size_m.unwrap_or(1.0),
-                ranges::VOXEL_SIZE_M,
-            ),
-        ];
-        match numbers
-            .into_iter()
-            .find(|(_, value, [min, max])| !(*min..=*max).contains(value))
-        {
-            Some((key, value, [min, max])) => Err(ProjectError::Range {
-                key,
-                value,
-                min,
-                max,
-            }),
-            None => Ok(()),
+/// Whether two stages look alike. A picture that is the same one is not compared pixel by pixel.
+fn is_same_stage(one: &Stage, other: &Stage) -> bool {
+    let picture = |stage: &Stage| match &stage.backdrop.as_ref()?.pattern {
+        Pattern::Picture(picture) => Some(Arc::clone(picture)),
+        Pattern::Checker { .. } | Pattern::Gradient => None,
+    };
+    match (picture(one), picture(other)) {
+        (Some(a), Some(b)) if Arc::ptr_eq(&a, &b) => {
+            let without = |stage: &Stage| {
+                let mut stage = stage.clone();
+                if let Some(backdrop) = &mut stage.backdrop {
+                    backdrop.pattern = Pattern::Gradient;
+                }
+                stage
+            };
+            without(one) == without(other)
         }
+        _ => one == other,
     }
 }
 

@@ -3,6 +3,8 @@
 //! A [`Project`] is plain data, written and read as TOML ([`mod@file`]), changed key by key ([`set`]), and turned
 //! into what the floors below take: [`Project::job`] for the renderer, [`Project::view`] for the picture.
 
+mod backdrops;
+mod check;
 mod darkness;
 mod error;
 mod fields;
@@ -14,13 +16,17 @@ mod presets;
 pub mod ranges;
 pub mod set;
 pub mod settings;
+mod stage;
 
+pub use backdrops::{Backdrops, PictureError};
 pub use darkness::{Darkness, Mend};
 pub use error::ProjectError;
 pub use idle::{Control, why_idle};
 pub use job::Job;
 pub use presets::{PRESETS, Preset};
 pub use settings::{
-    AirSettings, CameraSettings, EffectSettings, FieldSettings, FuelSettings, Project, Quality,
-    RenderSettings, SmokeSettings, SootSettings, Up, ViewSettings, VolumeSettings,
+    AirSettings, BackdropKind, CameraSettings, EffectSettings, FieldSettings, FuelSettings,
+    Project, Quality, RenderSettings, Saturation, SmokeSettings, SootSettings, StageSettings, Up,
+    ViewSettings, VolumeSettings,
 };
+pub use stage::StageDefaults;

@@ -11,6 +11,24 @@ pub const AMOUNT: [f64; 2] = [0.0, 1e4];
 pub const SALT_PPM: [f64; 2] = [0.0, 1e5];
 /// `air.temperature_k`.
 pub const AIR_TEMPERATURE_K: [f64; 2] = [200.0, 400.0];
+/// `soot.asymmetry`: short of light that is not scattered at all.
+pub const ASYMMETRY: [f64; 2] = [-0.99, 0.99];
+/// `smoke.albedo`: short of smoke that takes nothing.
+pub const ALBEDO: [f64; 2] = [0.0, 0.99];
+/// `air.pressure_pa`: from thirty kilometres up to ten atmospheres, where the equation of state ends.
+pub const PRESSURE_PA: [f64; 2] = [1e3, crate::physics::moist_air::HIGHEST_PRESSURE_PA];
+/// `air.refraction_gain`: nature's and more, for the eye.
+pub const REFRACTION_GAIN: [f64; 2] = [1.0, 20.0];
+/// Positions on the stage, m, and `stage.ground_height_m`.
+pub const STAGE_POSITION_M: [f64; 2] = [-1e6, 1e6];
+/// Radii, squares and distances on the stage, m.
+pub const STAGE_LENGTH_M: [f64; 2] = [1e-6, 1e6];
+/// Most spheres, and most logs: each is tried by each ray.
+pub const MOST_SHAPES: usize = 256;
+/// Each channel of a colour on the stage, linear: nothing sends back more than falls on it.
+pub const COLOUR: [f64; 2] = [0.0, 1.0];
+/// `stage.backdrop_luminance_cd_m2`: up to the sun.
+pub const BACKDROP_CD_M2: [f64; 2] = [0.0, 1e9];
 /// `air.humidity`, from dry to saturated.
 pub const HUMIDITY: [f64; 2] = [0.0, 1.0];
 /// `air.co2_ppm`: what Ciddor's equation (1996) was made for.

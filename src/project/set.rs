@@ -203,11 +203,11 @@ fn insert(table: &mut Table, dotted: &str, value: Value) {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use std::path::PathBuf;
+    use std::path::{Path, PathBuf};
 
     use glam::DVec3;
 
-    use super::super::settings::everything_set;
+    use super::super::settings::{BackdropKind, everything_set};
     use super::*;
 
     fn leaves(table: &Table, prefix: &str, into: &mut Vec<String>) {
@@ -235,6 +235,14 @@ mod tests {
             ("soot.radius_nm", ranges::SOOT_RADIUS_NM),
             ("soot.amount", ranges::AMOUNT),
             ("smoke.amount", ranges::AMOUNT),
+            ("soot.asymmetry", ranges::ASYMMETRY),
+            ("smoke.albedo", ranges::ALBEDO),
+            ("air.pressure_pa", ranges::PRESSURE_PA),
+            ("air.refraction_gain", ranges::REFRACTION_GAIN),
+            ("stage.ground_height_m", ranges::STAGE_POSITION_M),
+            ("stage.backdrop_distance_m", ranges::STAGE_LENGTH_M),
+            ("stage.backdrop_square_m", ranges::STAGE_LENGTH_M),
+            ("stage.backdrop_luminance_cd_m2", ranges::BACKDROP_CD_M2),
             ("air.temperature_k", ranges::AIR_TEMPERATURE_K),
             ("air.humidity", ranges::HUMIDITY),
             ("air.co2_ppm", ranges::CO2_PPM),
@@ -270,8 +278,24 @@ mod tests {
                 "render.wavelengths=8",
                 "render.quality=final",
                 "volume.smoke.grid=",
+                "stage.spheres=[[0, -2, 0.5, 0.1], [1, 2, 3, 4]]",
+                "stage.logs = [[0, 0, 0, 1, 0, 0, 0.05]]",
+                "stage.ground_colour=[0, 0.5, 1]",
+                "stage.backdrop=gradient",
+                "stage.backdrop_picture=some dir/a.png",
             ])
             .unwrap();
+        assert_eq!(
+            project.stage.spheres,
+            [[0.0, -2.0, 0.5, 0.1], [1.0, 2.0, 3.0, 4.0]]
+        );
+        assert_eq!(project.stage.logs, [[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.05]]);
+        assert_eq!(project.stage.ground_colour, [0.0, 0.5, 1.0]);
+        assert_eq!(project.stage.backdrop, BackdropKind::Gradient);
+        assert_eq!(
+            project.stage.backdrop_picture.as_deref(),
+            Some(Path::new("some dir/a.png"))
+        );
         assert_eq!(project.soot.amount, 2.0);
         assert_eq!(project.camera.eye, Some(DVec3::new(0.0, -2.0, 0.5)));
         assert_eq!(project.volume.soot.grid.as_deref(), Some("1"));
@@ -304,6 +328,8 @@ mod tests {
         assert!(error("fuel.name=propan").ends_with("or black-body; did you mean propane?"));
         assert!(error("fuel.salt=Sodium").ends_with("; did you mean sodium?"));
         assert!(!error("view.curve=aces").contains("did you mean"));
+        assert!(error("stage.backdrop=chequer").ends_with("; did you mean checker?"));
+        assert!(error("stage.spheres=[[0, 0, 1]]").contains("four numbers of m"));
         assert!(error("soot.amount=\"2\"\nsoot.radius_nm=3").contains("expected a number"));
         assert_eq!(project, Project::default());
     }

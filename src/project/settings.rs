@@ -10,9 +10,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
-use crate::render::Switch;
-use crate::scene::{Air, Camera, Fuel, Interpolation, Salt, WavelengthSet};
+use crate::render::{Effects, Switch};
+use crate::scene::{Camera, Fuel, Salt};
 use crate::volume::{BuiltIn, Producer};
+
+mod air;
+mod render;
+mod stage;
+
+pub use air::{AirSettings, Saturation};
+pub use render::{Quality, RenderSettings};
+pub use stage::{BackdropKind, StageSettings};
 
 /// A whole scene file.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -28,6 +36,8 @@ pub struct Project {
     pub smoke: SmokeSettings,
     /// The air around.
     pub air: AirSettings,
+    /// What stands around the fire.
+    pub stage: StageSettings,
     /// Which effects are computed.
     pub effects: EffectSettings,
     /// Where the eye is.
@@ -141,13 +151,34 @@ impl Default for FuelSettings {
 }
 
 /// `[effects]`
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct EffectSettings {
     /// Lines and bands of a salt's metal.
     pub lines: Switch,
     /// Light of radicals in the reaction zone.
     pub chemiluminescence: Switch,
+    /// The fire's own light, scattered once by soot and smoke.
+    pub scattering: Switch,
+    /// Light bent by hot gas.
+    pub refraction: Switch,
+    /// Colours bent differently.
+    pub dispersion: Switch,
+    /// The fire as a light for the stage.
+    pub fire_light: Switch,
+}
+
+impl From<EffectSettings> for Effects {
+    fn from(set: EffectSettings) -> Self {
+        Self {
+            lines: set.lines,
+            chemiluminescence: set.chemiluminescence,
+            scattering: set.scattering,
+            refraction: set.refraction,
+            dispersion: set.dispersion,
+            fire_light: set.fire_light,
+        }
+    }
 }
 
 /// `[soot]`
@@ -162,6 +193,9 @@ pub struct SootSettings {
     pub model: SootModel,
     /// What stays when the radius changes: the number of particles or the volume of soot.
     pub hold: Hold,
+    /// Mean cosine of the scattering, −0.99 to 0.99; `None`: that of spheres of the radius.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asymmetry: Option<f64>,
 }
 
 impl Default for SootSettings {
@@ -171,6 +205,7 @@ impl Default for SootSettings {
             amount: 1.0,
             model: SootModel::default(),
             hold: Hold::default(),
+            asymmetry: None,
         }
     }
 }
@@ -181,37 +216,17 @@ impl Default for SootSettings {
 pub struct SmokeSettings {
     /// Multiplies the smoke field, 0 to 10000.
     pub amount: f64,
+    /// Share of what smoke takes from light that it scatters, 0 to 0.99.
+    pub albedo: f64,
 }
 
 impl Default for SmokeSettings {
     fn default() -> Self {
-        Self { amount: 1.0 }
-    }
-}
-
-/// `[air]`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct AirSettings {
-    /// Temperature of the air, K, 200 to 400: where the volume has no temperature field.
-    pub temperature_k: f64,
-    /// Relative humidity, 0 to 1.
-    pub humidity: f64,
-    /// Carbon dioxide, parts in a million of the air's molecules, 0 to 2000.
-    pub co2_ppm: f64,
-}
-
-impl Default for AirSettings {
-    fn default() -> Self {
-        let Air {
-            temperature_k,
-            humidity,
-            co2_ppm,
-        } = Air::default();
         Self {
-            temperature_k,
-            humidity,
-            co2_ppm,
+            amount: 1.0,
+            // The black smoke of overfire soot scatters a fifth to a quarter of what it takes: G. W. Mulholland and
+            // M. Y. Choi, Proc. Combust. Inst. 27 (1998) 1515.
+            albedo: 0.2,
         }
     }
 }
@@ -242,80 +257,6 @@ impl From<&Camera> for CameraSettings {
             target: Some(camera.target),
             up: Some(camera.up),
             fov_deg: Some(camera.fov_deg),
-        }
-    }
-}
-
-/// `[render]`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct RenderSettings {
-    /// Width and height of a still, pixels.
-    pub size: [u32; 2],
-    /// A preset of the numbers below; an explicit number overrides it.
-    pub quality: Quality,
-    /// Length of a step, voxels.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step_voxels: Option<f64>,
-    /// How many wavelengths: 4, 6, 8 (fitted to the soot), 16, 32, 64 (plain).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wavelengths: Option<WavelengthSet>,
-    /// How values between the samples of a field are formed.
-    pub interpolation: Interpolation,
-    /// Rays for each pixel; 1 is the pixel's centre.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub samples_per_pixel: Option<u32>,
-}
-
-impl Default for RenderSettings {
-    fn default() -> Self {
-        Self {
-            size: [1280, 720],
-            quality: Quality::default(),
-            step_voxels: None,
-            wavelengths: None,
-            interpolation: Interpolation::default(),
-            samples_per_pixel: None,
-        }
-    }
-}
-
-/// Fixed presets of step, wavelengths and rays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Quality {
-    /// For blocking out: steps of two voxels, 4 wavelengths, one ray.
-    Draft,
-    /// For looking: steps of one voxel, 6 wavelengths, one ray.
-    #[default]
-    Look,
-    /// For keeping: half-voxel steps, 8 wavelengths, 4 rays.
-    Final,
-    /// For measuring against: quarter-voxel steps, 64 wavelengths, 16 rays.
-    Reference,
-}
-
-impl Quality {
-    /// Every preset, cheapest first.
-    pub const ALL: [Self; 4] = [Self::Draft, Self::Look, Self::Final, Self::Reference];
-
-    /// The name in the scene file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Draft => "draft",
-            Self::Look => "look",
-            Self::Final => "final",
-            Self::Reference => "reference",
-        }
-    }
-
-    /// Step in voxels, wavelengths and rays for each pixel.
-    pub fn numbers(self) -> (f64, WavelengthSet, u32) {
-        match self {
-            Self::Draft => (2.0, WavelengthSet::Fitted(4), 1),
-            Self::Look => (1.0, WavelengthSet::Fitted(6), 1),
-            Self::Final => (0.5, WavelengthSet::Fitted(8), 4),
-            Self::Reference => (0.25, WavelengthSet::Plain(64), 16),
         }
     }
 }
@@ -356,6 +297,7 @@ impl Default for ViewSettings {
 /// A project whose every key is set: what lists of keys are held against.
 #[cfg(test)]
 pub(super) fn everything_set() -> Project {
+    use crate::scene::{Interpolation, WavelengthSet};
     let field = |grid: &str| FieldSettings {
         grid: Some(grid.to_owned()),
         scale: Some(1e-7),
@@ -375,6 +317,21 @@ pub(super) fn everything_set() -> Project {
             flame: field("flames"),
             temperature: field("1"),
         },
+        soot: SootSettings {
+            asymmetry: Some(-0.25),
+            ..SootSettings::default()
+        },
+        stage: StageSettings {
+            ground: true,
+            ground_height_m: Some(-0.1),
+            spheres: vec![[0.1, 0.2, 0.3, 0.4]],
+            logs: vec![[0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6], [1.0; 7]],
+            backdrop: BackdropKind::Picture,
+            backdrop_distance_m: Some(2.5),
+            backdrop_square_m: Some(0.25),
+            backdrop_picture: Some(PathBuf::from("behind \"it\".png")),
+            ..StageSettings::default()
+        },
         camera: CameraSettings {
             eye: Some(DVec3::new(0.1, -2.0, 1e-300)),
             target: Some(DVec3::ZERO),
@@ -388,6 +345,7 @@ pub(super) fn everything_set() -> Project {
             wavelengths: Some(WavelengthSet::Fitted(8)),
             interpolation: Interpolation::Tricubic,
             samples_per_pixel: Some(4),
+            scattering_orders: 1,
         },
         view: ViewSettings {
             white_k: Some(2000.0),

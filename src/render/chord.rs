@@ -19,14 +19,20 @@ pub(super) struct Chord {
     pub(super) last_share: f32,
     /// The steps worth taking.
     pub(super) runs: Runs,
+    /// Lattice positions of the middles of all steps, where the ray is bent; empty where it is straight.
+    pub(super) middles: Vec<[f64; 3]>,
 }
 
 impl Chord {
-    /// Cuts a ray of the world into steps of `step_m` metres; `None` if it meets no soot. A step longer than the
-    /// chord is the chord.
-    pub(super) fn new(medium: &Medium, ray: &Ray, step_m: f64) -> Option<Self> {
+    /// Cuts a ray of the world into steps of `step_m` metres, up to a distance of `limit_m` where something is in the
+    /// way; `None` if it meets no soot. A step longer than the chord is the chord.
+    pub(super) fn new(medium: &Medium, ray: &Ray, step_m: f64, limit_m: f64) -> Option<Self> {
         let (local, [enter, exit]) = medium.enter(ray)?;
+        let exit = exit.min(limit_m);
         let length = exit - enter;
+        if length <= 0.0 {
+            return None;
+        }
         // A chord that is whole steps long up to rounding has no extra sliver of a step.
         let steps = (length / step_m - 1e-9).ceil().max(1.0);
         let last_share = (length - (steps - 1.0) * step_m) / step_m;
@@ -37,6 +43,7 @@ impl Chord {
             last: (steps - 1.0) as u32,
             last_share: last_share as f32,
             runs,
+            middles: Vec::new(),
         })
     }
 }
@@ -89,7 +96,7 @@ mod tests {
             let origin = if whole { origin.round() } else { origin };
             let Some(ray) = Ray::new(origin, direction.into()) else { return Ok(()) };
             let Some((local, [enter, exit])) = medium.enter(&ray) else { return Ok(()) };
-            let runs = Chord::new(&medium, &ray, step_m).map_or(Runs::new(), |chord| chord.runs);
+            let runs = Chord::new(&medium, &ray, step_m, f64::INFINITY).map_or(Runs::new(), |chord| chord.runs);
             let steps = ((exit - enter) / step_m - 1e-9).ceil().max(1.0) as u32;
             for step in 0..steps {
                 let begin = enter + f64::from(step) * step_m;

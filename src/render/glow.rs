@@ -13,6 +13,7 @@
 //! do not absorb: j t φ₁(τ) Δs.
 
 use super::growth::{FIT, GrowthFit, curve_of_growth_f32};
+use super::own_light::own_light;
 use crate::math::lanes::{self, LANES, Lanes};
 use crate::physics::blackbody;
 use crate::scene::Flame;
@@ -35,11 +36,44 @@ pub struct GlowTable {
     growth: GrowthFit,
 }
 
+/// What soot does to the light of a feature, for each unit of the medium's volume fraction, 1/m.
+#[derive(Debug, Clone, Copy)]
+struct Dimming {
+    absorption: f32,
+    /// Of soot and of smoke.
+    scattering: [f32; 2],
+}
+
+impl Dimming {
+    fn new(absorption: f64, scattering: [f64; 2]) -> Self {
+        Self {
+            absorption: absorption as f32,
+            scattering: scattering.map(|s| s as f32),
+        }
+    }
+
+    /// Optical depth of a column of soot (m), of which a part is smoke.
+    #[inline(always)]
+    fn depth<const SCATTER: bool>(&self, column: f32, smoke: f32) -> f32 {
+        if SCATTER {
+            self.absorption * column + self.scattered(column, smoke)
+        } else {
+            self.absorption * column
+        }
+    }
+
+    /// The scattering's part of it.
+    #[inline(always)]
+    fn scattered(&self, column: f32, smoke: f32) -> f32 {
+        let [by_soot, by_smoke] = self.scattering;
+        by_soot * (column - smoke) + by_smoke * smoke
+    }
+}
+
 /// A line or a band.
 #[derive(Debug, Clone, Copy)]
 struct Thermal {
-    /// Soot's absorption at its wavelength, as [`super::plan::Node::absorption`].
-    absorption: f32,
+    dimming: Dimming,
     /// Planck's radiance times the feature's width, without its exponential, W m⁻² sr⁻¹.
     planck_scale: f32,
     planck_exponent_k: f32,
@@ -52,7 +86,7 @@ struct Thermal {
 /// A part of the radicals' light.
 #[derive(Debug, Clone, Copy)]
 struct Radical {
-    absorption: f32,
+    dimming: Dimming,
     /// W m⁻³ sr⁻¹ where the flame field is 1.
     emission: f32,
 }
@@ -61,6 +95,8 @@ struct Radical {
 pub(super) struct Step {
     /// ∫ f_v ds of the medium over the step, m.
     pub(super) column: Lanes,
+    /// The part of it that is smoke.
+    pub(super) smoke: Lanes,
     pub(super) inverse_temperature: Lanes,
     pub(super) flame: Lanes,
     /// Length, m; 0 for a ray that is through.
@@ -68,8 +104,12 @@ pub(super) struct Step {
 }
 
 impl GlowTable {
-    /// Bakes features for a flame.
-    pub(super) fn new(flame: &Flame, features: Vec<Feature>) -> Self {
+    /// Bakes features for a flame whose soot and smoke scatter so much for each unit of volume fraction, 1/m.
+    pub(super) fn new(
+        flame: &Flame,
+        features: &[Feature],
+        scattering: &impl Fn(f64) -> [f64; 2],
+    ) -> Self {
         let glow = flame.glow();
         let [air, hot] = glow.dilution_k();
         let mut table = Self {
@@ -83,7 +123,7 @@ impl GlowTable {
         // The thermal features come first.
         for feature in features {
             let nm = feature.lambda_nm;
-            let absorption = flame.absorption_per_sample(nm) as f32;
+            let dimming = Dimming::new(flame.absorption_per_sample(nm), scattering(nm));
             match feature.source {
                 Source::Thermal {
                     width_nm,
@@ -91,7 +131,7 @@ impl GlowTable {
                     lower_k,
                     growth,
                 } => table.thermal.push(Thermal {
-                    absorption,
+                    dimming,
                     planck_scale: (width_nm * blackbody::FIRST_RADIATION_CONSTANT / nm.powi(5))
                         as f32,
                     planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
@@ -100,12 +140,12 @@ impl GlowTable {
                     growth,
                 }),
                 Source::Radical(emission) => table.radicals.push(Radical {
-                    absorption,
+                    dimming,
                     emission: emission as f32,
                 }),
             }
             table.colours.push(feature.colour);
-            table.spreads.push(feature.spread);
+            table.spreads.push(feature.spread.clone());
         }
         debug_assert!(table.colours.len() <= MAX_FEATURES);
         table
@@ -143,10 +183,23 @@ impl GlowTable {
         self.colours.len()
     }
 
-    /// Soot's absorption at each feature.
+    /// Soot's absorption at each feature, for each unit of the medium's volume fraction, 1/m.
     pub(super) fn absorptions(&self) -> impl Iterator<Item = f32> {
-        let thermal = self.thermal.iter().map(|feature| feature.absorption);
-        thermal.chain(self.radicals.iter().map(|feature| feature.absorption))
+        self.dimmings().map(|dimming| dimming.absorption)
+    }
+
+    /// What of each feature's light comes through columns of soot (m), of which a part is smoke.
+    pub(super) fn transmittances(&self, column: f64, smoke: f64) -> impl Iterator<Item = f64> {
+        self.dimmings().map(move |dimming| {
+            let [by_soot, by_smoke] = dimming.scattering.map(f64::from);
+            let taken = f64::from(dimming.absorption) * column;
+            (-(taken + by_soot * (column - smoke) + by_smoke * smoke)).exp()
+        })
+    }
+
+    fn dimmings(&self) -> impl Iterator<Item = &Dimming> {
+        let thermal = self.thermal.iter().map(|feature| &feature.dimming);
+        thermal.chain(self.radicals.iter().map(|feature| &feature.dimming))
     }
 }
 
@@ -177,13 +230,21 @@ impl GlowLight {
         }
     }
 
-    /// Adds what a step gives.
+    /// Adds what a step gives. `around` is the fire's light of each feature from all sides, as it is scattered towards the
+    /// eye, less that of the place itself, which [`own_light`] finds for a reach of `reach_m`; both are read where
+    /// `SCATTER` is.
     #[inline(always)]
-    pub(super) fn step(&mut self, table: &GlowTable, step: &Step) {
+    pub(super) fn step<const SCATTER: bool>(
+        &mut self,
+        table: &GlowTable,
+        step: &Step,
+        reach_m: f32,
+        around: &[Lanes],
+    ) {
         let vapour = vapour(table.dilution, &step.inverse_temperature);
         for (i, feature) in table.thermal.iter().enumerate() {
             let (light, transmittance) = (&mut self.block[i], &mut self.transmittance[i]);
-            let (depth, width) = (&mut self.block_depth[i], &mut self.width[i]);
+            let (gathered, width) = (&mut self.block_depth[i], &mut self.width[i]);
             for lane in 0..LANES {
                 let inverse = step.inverse_temperature[lane];
                 let wien = lanes::exp(-feature.planck_exponent_k * inverse);
@@ -194,9 +255,12 @@ impl GlowLight {
                     1.0
                 };
                 let gas = vapour[lane] * inverse * step.length[lane];
-                depth[lane] += feature.strength * lower * (1.0 - wien) * gas;
-                let y = self.depth[i][lane] + depth[lane];
-                let absorbed = -lanes::exp_m1(-feature.absorption * step.column[lane]);
+                gathered[lane] += feature.strength * lower * (1.0 - wien) * gas;
+                let y = self.depth[i][lane] + gathered[lane];
+                let depth = feature
+                    .dimming
+                    .depth::<SCATTER>(step.column[lane], step.smoke[lane]);
+                let absorbed = -lanes::exp_m1(-depth);
                 transmittance[lane] -= transmittance[lane] * absorbed;
                 let grown = match feature.growth {
                     Growth::Line => curve_of_growth_f32(&table.growth, y),
@@ -209,11 +273,17 @@ impl GlowLight {
         for (i, feature) in (table.thermal.len()..).zip(&table.radicals) {
             let (light, transmittance) = (&mut self.block[i], &mut self.transmittance[i]);
             for lane in 0..LANES {
-                let tau = feature.absorption * step.column[lane];
+                let (column, smoke) = (step.column[lane], step.smoke[lane]);
+                let tau = feature.dimming.depth::<SCATTER>(column, smoke);
                 let absorbed = -lanes::exp_m1(-tau);
                 // φ₁ → 1 where there is no soot.
                 let phi = if tau > 1e-12 { absorbed / tau } else { 1.0 };
-                let emitted = feature.emission * step.flame[lane] * step.length[lane];
+                let mut emitted = feature.emission * step.flame[lane] * step.length[lane];
+                if SCATTER {
+                    let own = own_light(emitted, tau, step.length[lane], reach_m);
+                    let around = (around[i][lane] + own).max(0.0);
+                    emitted += feature.dimming.scattered(column, smoke) * around;
+                }
                 light[lane] += transmittance[lane] * emitted * phi;
                 transmittance[lane] -= transmittance[lane] * absorbed;
             }
@@ -222,14 +292,19 @@ impl GlowLight {
 
     /// Ends a block of steps: sums go to the totals, transmittances are taken afresh from the soot's column.
     #[inline(always)]
-    pub(super) fn flush(&mut self, table: &GlowTable, column_m: &Lanes) {
-        for (i, absorption) in table.absorptions().enumerate() {
-            for (lane, column_m) in column_m.iter().enumerate() {
+    pub(super) fn flush<const SCATTER: bool>(
+        &mut self,
+        table: &GlowTable,
+        [column_m, smoke_m]: [&Lanes; 2],
+    ) {
+        for (i, dimming) in table.dimmings().enumerate() {
+            for lane in 0..LANES {
                 self.total[i][lane] += self.block[i][lane];
                 self.block[i][lane] = 0.0;
                 self.depth[i][lane] += self.block_depth[i][lane];
                 self.block_depth[i][lane] = 0.0;
-                self.transmittance[i][lane] = lanes::exp(-absorption * column_m);
+                let depth = dimming.depth::<SCATTER>(column_m[lane], smoke_m[lane]);
+                self.transmittance[i][lane] = lanes::exp(-depth);
             }
         }
     }

@@ -4,38 +4,41 @@ use crate::scene::Interpolation;
 use crate::scene::interpolation::spline_fetches_f32;
 use crate::scene::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES};
 
-/// Soot volume fraction, temperature in K, and the flame field.
-pub(super) type Found = [f32; 3];
+/// Soot volume fraction, temperature in K, the flame field, and which part of the volume fraction is smoke.
+pub(super) type Found = [f32; 4];
 
 /// What is found where no brick is: clear air.
-const CLEAR: Found = [0.0, 300.0, 0.0];
+const CLEAR: Found = [0.0, 300.0, 0.0, 0.0];
 
-/// The medium at a lattice position. The flame field is read only where `GAS` is.
+/// The medium at a lattice position. The flame field is read only where `GAS` is, the smoke only where `SCATTER` is.
 ///
 /// The position comes in f64: where the temperature changes by hundreds of kelvin in a voxel, the last bit of an
 /// f32 coordinate would show in Planck's exponential.
 #[inline(always)]
-pub(super) fn lookup<const GAS: bool>(medium: &Medium, position: [f64; 3]) -> Found {
+pub(super) fn lookup<const GAS: bool, const SCATTER: bool>(
+    medium: &Medium,
+    position: [f64; 3],
+) -> Found {
     // One way for all samples of a picture: the processor foresees it.
     match medium.interpolation {
         Interpolation::Trilinear => {
             let voxel: [i32; 3] = position.map(|p| p as i32);
             let fraction =
                 std::array::from_fn(|axis| (position[axis] - f64::from(voxel[axis])) as f32);
-            cell::<GAS>(medium, voxel, fraction)
+            cell::<GAS, SCATTER>(medium, voxel, fraction)
         }
         Interpolation::Nearest => {
             let voxel: [i32; 3] = position.map(|p| p as i32);
             let upper = std::array::from_fn(|axis| position[axis] - f64::from(voxel[axis]) >= 0.5);
-            corner::<GAS>(medium, voxel, upper)
+            corner::<GAS, SCATTER>(medium, voxel, upper)
         }
-        Interpolation::Tricubic => tricubic::<GAS>(medium, position),
+        Interpolation::Tricubic => tricubic::<GAS, SCATTER>(medium, position),
     }
 }
 
 /// The B-spline by eight linear fetches.
 #[inline(never)]
-fn tricubic<const GAS: bool>(medium: &Medium, position: [f64; 3]) -> Found {
+fn tricubic<const GAS: bool, const SCATTER: bool>(medium: &Medium, position: [f64; 3]) -> Found {
     let base: [i32; 3] = position.map(|p| p.floor() as i32);
     let fetches: [[(f32, f32); 2]; 3] = std::array::from_fn(|axis| {
         spline_fetches_f32((position[axis] - f64::from(base[axis])) as f32)
@@ -48,11 +51,11 @@ fn tricubic<const GAS: bool>(medium: &Medium, position: [f64; 3]) -> Found {
             (base[axis] + 1, high - 1.0, high_weight),
         ]
     });
-    let mut sum = [0.0; 3];
+    let mut sum = [0.0; 4];
     for (z, fz, wz) in cells[2] {
         for (y, fy, wy) in cells[1] {
             for (x, fx, wx) in cells[0] {
-                let found = cell::<GAS>(medium, [x, y, z], [fx, fy, fz]);
+                let found = cell::<GAS, SCATTER>(medium, [x, y, z], [fx, fy, fz]);
                 let weight = wx * wy * wz;
                 sum = std::array::from_fn(|c| sum[c] + weight * found[c]);
             }
@@ -63,7 +66,11 @@ fn tricubic<const GAS: bool>(medium: &Medium, position: [f64; 3]) -> Found {
 
 /// Between the eight corners of a voxel's cell, trilinear; clear air where no brick is.
 #[inline(always)]
-fn cell<const GAS: bool>(medium: &Medium, voxel: [i32; 3], fraction: [f32; 3]) -> Found {
+fn cell<const GAS: bool, const SCATTER: bool>(
+    medium: &Medium,
+    voxel: [i32; 3],
+    fraction: [f32; 3],
+) -> Found {
     let Some(first) = first_corner(medium, voxel) else {
         return CLEAR;
     };
@@ -77,40 +84,52 @@ fn cell<const GAS: bool>(medium: &Medium, voxel: [i32; 3], fraction: [f32; 3]) -
     let near = between(pair(0, 0), pair(1, 0), fraction[1]);
     let far = between(pair(0, 1), pair(1, 1), fraction[1]);
     let [soot_low, hot_low, soot_high, hot_high] = between(near, far, fraction[2]);
-    let flame = if GAS && !medium.flame.is_empty() {
+    // A field of its own: two neighbours in x at a time.
+    let beside = |field: &[f32]| -> f32 {
         let pair = |dy: usize, dz: usize| -> [f32; 2] {
             let at = row(dy, dz);
-            [medium.flame[at], medium.flame[at + 1]]
+            [field[at], field[at + 1]]
         };
         let near = between(pair(0, 0), pair(1, 0), fraction[1]);
         let far = between(pair(0, 1), pair(1, 1), fraction[1]);
         let [low, high] = between(near, far, fraction[2]);
         low + fraction[0] * (high - low)
-    } else {
-        0.0
     };
+    let has = [
+        GAS && !medium.flame.is_empty(),
+        SCATTER && !medium.smoke.is_empty(),
+    ];
     [
         soot_low + fraction[0] * (soot_high - soot_low),
         hot_low + fraction[0] * (hot_high - hot_low),
-        flame,
+        if has[0] { beside(&medium.flame) } else { 0.0 },
+        if has[1] { beside(&medium.smoke) } else { 0.0 },
     ]
 }
 
 /// One of the eight corners, bit for bit; clear air where no brick is.
 #[inline(always)]
-fn corner<const GAS: bool>(medium: &Medium, voxel: [i32; 3], upper: [bool; 3]) -> Found {
+fn corner<const GAS: bool, const SCATTER: bool>(
+    medium: &Medium,
+    voxel: [i32; 3],
+    upper: [bool; 3],
+) -> Found {
     let Some(first) = first_corner(medium, voxel) else {
         return CLEAR;
     };
     let [dx, dy, dz] = upper.map(usize::from);
     let at = first + (dz * SAMPLES + dy) * SAMPLES + dx;
-    let flame = if GAS && !medium.flame.is_empty() {
-        medium.flame[at]
-    } else {
-        0.0
-    };
+    let has = [
+        GAS && !medium.flame.is_empty(),
+        SCATTER && !medium.smoke.is_empty(),
+    ];
     let [soot, kelvin] = medium.samples[at];
-    [soot, kelvin, flame]
+    [
+        soot,
+        kelvin,
+        if has[0] { medium.flame[at] } else { 0.0 },
+        if has[1] { medium.smoke[at] } else { 0.0 },
+    ]
 }
 
 /// Where the lowest corner of a voxel's cell is stored, if it is.
@@ -160,27 +179,29 @@ mod tests {
         }
     }
 
-    /// Soot, kelvin and flame of a voxel of the file.
-    fn of_file(voxel: IVec3, seed: u32) -> [f32; 3] {
+    /// Soot with smoke, kelvin, flame and smoke of a voxel of the file.
+    fn of_file(voxel: IVec3, seed: u32) -> [f32; 4] {
         let hot = speckles(voxel, seed + 1);
+        let smoke = 1e-5 * speckles(voxel, seed + 3);
         [
-            1e-5 * speckles(voxel, seed),
+            1e-5 * speckles(voxel, seed) + smoke,
             if hot > 0.0 {
                 400.0 + 2000.0 * hot
             } else {
                 AROUND_K
             },
             speckles(voxel, seed + 2),
+            smoke,
         ]
     }
 
     /// The same of any voxel, with the file's border.
-    fn of_voxel(voxel: IVec3, seed: u32, border: Border) -> [f32; 3] {
+    fn of_voxel(voxel: IVec3, seed: u32, border: Border) -> [f32; 4] {
         let clamped = voxel.clamp(IVec3::ZERO, IVec3::splat(EDGE - 1));
         if border == Border::Clamp || clamped == voxel {
             of_file(clamped, seed)
         } else {
-            [0.0, AROUND_K, 0.0]
+            [0.0, AROUND_K, 0.0, 0.0]
         }
     }
 
@@ -189,17 +210,30 @@ mod tests {
             let (dims, value) = (IVec3::splat(EDGE), |voxel| of_file(voxel, seed)[c]);
             Grid::from_fn(name, dims, DAffine3::IDENTITY, border, around, value)
         };
+        // The file's own soot is what is not smoke.
+        let own = |voxel| {
+            let [all, .., smoke] = of_file(voxel, seed);
+            all - smoke
+        };
         let grids = vec![
-            grid("soot", 0, 0.0),
+            Grid::from_fn(
+                "soot",
+                IVec3::splat(EDGE),
+                DAffine3::IDENTITY,
+                border,
+                0.0,
+                own,
+            ),
+            grid("smoke", 3, 0.0),
             grid("temperature", 1, AROUND_K),
             grid("flame", 2, 0.0),
         ];
         let map = |name: &str, max: f64| Some(FieldMap::new(name, 1.0, 0.0, 0.0, max));
         let maps = FieldMaps {
             soot: map("soot", 1.0),
+            smoke: map("smoke", 1.0),
             temperature: map("temperature", 1e4),
             flame: map("flame", 1.0),
-            ..FieldMaps::default()
         };
         let volume = Volume::from_grids(grids, "speckles");
         crate::scene::pack_for_tests(&volume, &maps, interpolation).unwrap()
@@ -235,6 +269,8 @@ mod tests {
             let medium = medium(seed, border, interpolation);
             let domain = medium.domain;
             let origin = medium.lattice_from_world.translation;
+            // The sum of soot and smoke is rounded twice.
+            let exact = [2e-7, 1e-12, 1e-12, 1e-12];
             let mut seen = 0;
             for i in 0..400_u32 {
                 let place = crate::math::random::philox([i, 0, 0, 0], [seed, 7]);
@@ -251,15 +287,15 @@ mod tests {
                 };
                 let position = position.clamp(domain.min, domain.max);
                 let voxel = position - origin;
-                let (base, mut whole) = (voxel.floor(), [0.0; 3]);
+                let (base, mut whole) = (voxel.floor(), [0.0; 4]);
                 let along = (voxel - base).to_array().map(|f| weights(interpolation, f));
-                let (mut low, mut high) = ([f64::INFINITY; 3], [0.0_f64; 3]);
+                let (mut low, mut high) = ([f64::INFINITY; 4], [0.0_f64; 4]);
                 for at in 0..64 {
                     let [x, y, z] = [at & 3, at >> 2 & 3, at >> 4];
                     let weight = along[0][x] * along[1][y] * along[2][z];
                     let step = IVec3::new(x as i32, y as i32, z as i32) - 1;
                     let values = of_voxel(base.as_ivec3() + step, seed, border).map(f64::from);
-                    for c in 0..3 {
+                    for c in 0..4 {
                         whole[c] += weight * values[c];
                         if weight > 0.0 {
                             (low[c], high[c]) = (low[c].min(values[c]), high[c].max(values[c]));
@@ -278,12 +314,12 @@ mod tests {
                     continue;
                 }
                 let [soot, kelvin] = medium.sample(position);
-                let double = [soot, kelvin, medium.flame(position)];
-                let single = lookup::<true>(&medium, position.to_array());
-                for c in 0..3 {
+                let double = [soot, kelvin, medium.flame(position), medium.smoke(position)];
+                let single = lookup::<true, true>(&medium, position.to_array());
+                for c in 0..4 {
                     let scale = high[c].max(1e-12);
                     let found = f64::from(single[c]);
-                    prop_assert!((double[c] - whole[c]).abs() <= 1e-12 * scale, "{c} at {voxel}: {double:?} {whole:?}");
+                    prop_assert!((double[c] - whole[c]).abs() <= exact[c] * scale, "{c} at {voxel}: {double:?} {whole:?}");
                     prop_assert!((found - whole[c]).abs() <= 2e-6 * scale, "{c} at {voxel}: {single:?} {whole:?}");
                     prop_assert!(found >= 0.0 && found <= high[c] * (1.0 + 1e-6), "{c}: {found} above {}", high[c]);
                     prop_assert!(found >= low[c] - 1e-6 * high[c], "{c}: {found} below {}", low[c]);

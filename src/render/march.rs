@@ -1,66 +1,97 @@
-//! Emission and absorption along rays: the inner loop.
+//! From points of a picture to light on the film.
 //!
 //! # What is computed
 //!
-//! The equation of transfer without scattering, dL/ds = −σ_a L + σ_a B(λ, T), from the eye outwards. A ray's
-//! chord through the domain is cut into steps of equal length, the last one shorter; a step takes the medium at
-//! its middle and adds, for each wavelength,
+//! The equation of transfer, dL/ds = −σ_t L + σ_a B(λ, T) + σ_s J, from the eye outwards. A ray's chord through the
+//! domain is cut into steps of equal length, the last one shorter; a step takes the medium at its middle and adds, for
+//! each wavelength,
 //!
 //! ```text
-//! L += t B(λ, T) (1 − e^{−τ}),   t *= e^{−τ},   τ = σ_a(λ) f_v Δs
+//! L += t (σ_a B(λ, T) + σ_s J) Δs φ₁(τ),   t *= e^{−τ},   τ = σ_t Δs,   φ₁(τ) = (1 − e^{−τ})/τ
 //! ```
 //!
 //! which is exact for a constant step and of second order otherwise (Max 1995, with the sign that the report's
 //! eq. 4.1 misprints). B / n² is what is conserved along a ray, so the medium's index drops out. What gas adds beside
-//! soot is in `glow`.
+//! soot is in `glow`; J, the light that comes from all sides and is scattered towards the eye, in `scatter`. A surface
+//! that the ray ends at sends back what `irradiance` says falls on it; a backdrop shines by itself. Both are seen
+//! through what is in front of them.
 //!
-//! # How
-//!
-//! Sixteen rays of a 4 × 4 block of pixels go side by side, each at its own sample, so a lane's arithmetic
-//! depends on its ray alone. Steps are counted from where the ray enters the domain; the bricks without soot
-//! are found by a walk over the table of bricks and their steps are jumped over. Sums run in blocks of
-//! `FLUSH` samples that are then added to totals, and the transmittance is taken afresh from the summed
-//! column at each block's end: ten thousand steps of an f32 sum then lose no more than a few of its last bits.
+//! How sixteen rays go side by side is in `kernel`, where they go in `way`.
 
-use crate::math::lanes::{self, Kernel, LANES, Lanes};
+use crate::colour::reflectance::Reflectance;
+use crate::math::lanes::{LANES, Lanes};
 use crate::scene::Scene;
 use crate::scene::camera::{CameraError, View};
-use crate::scene::medium::Medium;
 
-use super::chord::Chord;
+use super::fields::Fields;
 use super::film::Pixel;
-use super::glow::{GlowLight, GlowTable, MAX_FEATURES, Step};
-use super::lookup::lookup;
-use super::plan::{MAX_NODES, Node, Plan};
+use super::kernel::{Light, March, Packet};
+use super::plan::Plan;
+use super::tables::Tables;
+use super::way::{End, Way, Ways};
+use crate::scene::stage::Hit;
 
 /// Width and height of a packet in rays.
 pub const PACKET_SIDE: u32 = 4;
-/// Samples between two flushes of the block sums.
-const FLUSH: u32 = 16;
 
 const _: () = assert!((PACKET_SIDE * PACKET_SIDE) as usize == LANES);
 
 /// Marches packets of rays for one scene, plan and step.
 pub struct Marcher<'a> {
     view: View,
-    medium: &'a Medium,
-    plan: &'a Plan,
-    step_m: f64,
+    scene: &'a Scene,
+    tables: &'a Tables,
+    fields: &'a Fields,
+    ways: Ways<'a>,
+}
+
+/// The light of one ray.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seen {
+    /// Spectral radiance at each of the plan's nodes, W m⁻² sr⁻¹ nm⁻¹.
+    pub radiance: Vec<f64>,
+    /// Radiance of each feature of the gas, W m⁻² sr⁻¹.
+    pub features: Vec<f64>,
+    /// X, Y, Z of the backdrop behind, W m⁻² sr⁻¹, whose spectrum is not kept.
+    pub backdrop: [f64; 3],
 }
 
 impl<'a> Marcher<'a> {
-    /// Prepares a march with steps of `step_voxels`.
+    /// Prepares a march with steps of `step_voxels`, with the plan's fields worked out finely.
     ///
     /// # Errors
     /// The camera cannot see.
     pub fn new(scene: &'a Scene, plan: &'a Plan, step_voxels: f64) -> Result<Self, CameraError> {
+        Self::with_fields(scene, plan, plan.fine_fields(scene), step_voxels)
+    }
+
+    /// Prepares a march with fields that were worked out for the same scene and plan.
+    ///
+    /// # Errors
+    /// The camera cannot see.
+    pub fn with_fields(
+        scene: &'a Scene,
+        plan: &'a Plan,
+        fields: &'a Fields,
+        step_voxels: f64,
+    ) -> Result<Self, CameraError> {
         let medium = scene.flame.medium();
-        let step_m = step_voxels * medium.voxel_size_m();
+        let size = plan.tables.size;
+        let backdrop = scene.stage.backdrop.as_ref();
         Ok(Self {
-            view: scene.camera.view(plan.size)?,
-            medium,
-            plan,
-            step_m,
+            view: scene.camera.view(size)?,
+            scene,
+            tables: &plan.tables,
+            fields,
+            ways: Ways {
+                medium,
+                stage: &scene.stage,
+                screen: backdrop
+                    .map(|backdrop| backdrop.facing(&scene.camera, size))
+                    .transpose()?,
+                bent: fields.bent.as_deref(),
+                step_m: step_voxels * medium.voxel_size_m(),
+            },
         })
     }
 
@@ -68,271 +99,134 @@ impl<'a> Marcher<'a> {
     /// what they leave on the film and how many samples of the medium were taken.
     pub fn march(&self, points: &[Option<[f64; 2]>; LANES]) -> ([Pixel; LANES], u64) {
         let mut pixels = [Pixel::default(); LANES];
-        let Some(light) = self.follow(points) else {
+        let ways: [Option<Way>; LANES] = std::array::from_fn(|lane| {
+            points[lane].map(|[x, y]| self.ways.of(&self.view.ray(x, y)))
+        });
+        let Some(light) = self.follow(&ways) else {
             return (pixels, 0);
         };
-
-        // The spectrum becomes three numbers here, in f64: the fitted weights have both signs.
-        let (nodes, glow) = (&self.plan.nodes, &self.plan.glow);
-        for (lane, pixel) in pixels.iter_mut().enumerate() {
-            let lane_of = |light: &Lanes| f64::from(light[lane]);
-            let soot = self
-                .plan
-                .wavelengths
-                .xyz_of(light.radiance[..nodes.len()].iter().map(lane_of));
-            let gas = glow.xyz_of(light.glow.iter().map(lane_of));
-            pixel.xyz = std::array::from_fn(|c| (soot[c] + gas[c]) as f32);
-            let column = f64::from(light.column_m[lane]);
-            let opacity = nodes
-                .iter()
-                .map(|node| -(-f64::from(node.absorption) * column).exp_m1());
-            pixel.opacity = self.plan.wavelengths.opacity_of(opacity).map(|v| v as f32);
+        for (lane, (pixel, way)) in pixels.iter_mut().zip(&ways).enumerate() {
+            if let Some(way) = way {
+                *pixel = self.pixel(&light, lane, &way.end);
+            }
         }
         (pixels, light.samples)
     }
 
-    /// Follows the ray through one point of the picture and keeps its spectrum: radiance at each of the plan's nodes,
-    /// W m⁻² sr⁻¹ nm⁻¹, and what each feature of its gas adds, W m⁻² sr⁻¹.
-    pub fn radiance(&self, point: [f64; 2]) -> [Vec<f64>; 2] {
-        let mut points = [None; LANES];
-        points[0] = Some(point);
-        let counts = [self.plan.nodes.len(), self.plan.glow.len()];
-        let Some(light) = self.follow(&points) else {
-            return counts.map(|count| vec![0.0; count]);
-        };
-        let first = |lanes: &[Lanes], count: usize| {
-            let lanes = lanes.iter().take(count);
-            lanes.map(|lane| f64::from(lane[0])).collect()
-        };
-        [
-            first(&light.radiance, counts[0]),
-            first(&light.glow, counts[1]),
-        ]
+    /// The spectrum becomes three numbers here, in f64: the fitted weights have both signs.
+    fn pixel(&self, light: &Light, lane: usize, end: &End) -> Pixel {
+        let Tables {
+            nodes,
+            glow,
+            wavelengths,
+            ..
+        } = self.tables;
+        let lane_of = |light: &Lanes| f64::from(light[lane]);
+        let soot = wavelengths.xyz_of(light.radiance[..nodes.len()].iter().map(lane_of));
+        let gas = glow.xyz_of(light.glow.iter().map(lane_of));
+        let mut xyz: [f64; 3] = std::array::from_fn(|c| soot[c] + gas[c]);
+        let [column, smoke] = [&light.column_m, &light.smoke_m].map(lane_of);
+        let mut opacity = wavelengths.opacity_of(nodes.iter().map(|node| {
+            let [all, more] = node.extinction().map(f64::from);
+            -(-(all * column + more * smoke)).exp_m1()
+        }));
+        match end {
+            End::Dark => {}
+            End::Surface(hit) => {
+                let [radiance, features] = self.surface(hit, [column, smoke]);
+                let [soot, gas] = [
+                    wavelengths.xyz_of(radiance),
+                    glow.xyz_of(features.into_iter()),
+                ];
+                xyz = std::array::from_fn(|c| xyz[c] + soot[c] + gas[c]);
+                opacity = [1.0; 3];
+            }
+            End::Screen(screen) => {
+                xyz = std::array::from_fn(|c| xyz[c] + screen[c] * (1.0 - opacity[c]));
+                opacity = [1.0; 3];
+            }
+        }
+        Pixel {
+            xyz: xyz.map(|v| v as f32),
+            opacity: opacity.map(|v| v as f32),
+        }
     }
 
-    /// What the rays through these points bring home; `None` if none of them meets soot.
-    fn follow(&self, points: &[Option<[f64; 2]>; LANES]) -> Option<Light> {
-        let chords: [Option<Chord>; LANES] = std::array::from_fn(|lane| {
-            points[lane]
-                .and_then(|[x, y]| Chord::new(self.medium, &self.view.ray(x, y), self.step_m))
+    /// What a surface sends through columns of soot and smoke (m): at each node, and of each feature.
+    fn surface(&self, hit: &Hit, [column, smoke]: [f64; 2]) -> [Vec<f64>; 2] {
+        let tables = self.tables;
+        let mut falls = vec![0.0; tables.channels()];
+        if let Some(fire) = &self.fields.fire_light {
+            fire.irradiance(&self.scene.stage, hit.point, hit.normal, &mut falls);
+        }
+        let (at_nodes, of_features) = falls.split_at(tables.nodes.len());
+        // A matt surface sends what falls on it evenly into the half space: L = ρ E/π.
+        let reflectance = Reflectance::of(hit.colour);
+        let sent =
+            |falls: f32, nm: f64| reflectance.at(nm) * f64::from(falls) / std::f64::consts::PI;
+        let nodes = tables.nodes.iter().zip(&tables.wavelengths.nodes_nm);
+        let radiance = nodes.zip(at_nodes).map(|((node, &nm), &falls)| {
+            let [all, more] = node.extinction().map(f64::from);
+            sent(falls, nm) * (-(all * column + more * smoke)).exp()
         });
-        if chords.iter().all(Option::is_none) {
-            return None;
-        }
-        let packet = Packet::new(&chords);
-        // What does not glow must not cost.
-        Some(if self.plan.glow.is_empty() {
-            lanes::dispatch(self.work::<false>(packet))
-        } else {
-            lanes::dispatch(self.work::<true>(packet))
-        })
+        let through = tables.glow.transmittances(column, smoke);
+        let features = tables.features.iter().zip(of_features).zip(through);
+        let features =
+            features.map(|((feature, &falls), through)| sent(falls, feature.lambda_nm) * through);
+        [radiance.collect(), features.collect()]
     }
 
-    fn work<'b, const GAS: bool>(&'b self, packet: Packet<'b>) -> March<'b, GAS> {
-        March {
-            medium: self.medium,
-            nodes: &self.plan.nodes,
-            glow: &self.plan.glow,
-            opaque: self.plan.opaque_column_m,
-            step_m: self.step_m as f32,
-            packet,
-        }
-    }
-}
-
-/// Rays side by side, with where each is on its way.
-struct Packet<'a> {
-    start: [[f64; 3]; LANES],
-    delta: [[f64; 3]; LANES],
-    last: [u32; LANES],
-    last_share: Lanes,
-    runs: [&'a [[u32; 2]]; LANES],
-}
-
-impl<'a> Packet<'a> {
-    fn new(chords: &'a [Option<Chord>; LANES]) -> Self {
-        let mut packet = Self {
-            start: [[0.0; 3]; LANES],
-            delta: [[0.0; 3]; LANES],
-            last: [0; LANES],
-            last_share: [1.0; LANES],
-            runs: [&[]; LANES],
-        };
-        for (lane, chord) in chords.iter().enumerate() {
-            let Some(chord) = chord else { continue };
-            packet.start[lane] = chord.start;
-            packet.delta[lane] = chord.delta;
-            packet.last[lane] = chord.last;
-            packet.last_share[lane] = chord.last_share;
-            packet.runs[lane] = &chord.runs;
-        }
-        packet
-    }
-}
-
-/// The work of one packet, with gas that glows beside soot or without.
-struct March<'a, const GAS: bool> {
-    medium: &'a Medium,
-    nodes: &'a [Node],
-    glow: &'a GlowTable,
-    opaque: f32,
-    step_m: f32,
-    packet: Packet<'a>,
-}
-
-/// What a packet of rays brings home.
-struct Light {
-    /// Spectral radiance at each node, W m⁻² sr⁻¹ nm⁻¹.
-    radiance: [Lanes; MAX_NODES],
-    /// Radiance of each feature of the gas, W m⁻² sr⁻¹.
-    glow: [Lanes; MAX_FEATURES],
-    /// ∫ f_v ds of the medium, m.
-    column_m: Lanes,
-    samples: u64,
-}
-
-impl<const GAS: bool> Kernel for March<'_, GAS> {
-    type Output = Light;
-
-    #[inline(always)]
-    fn run(self) -> Light {
-        let nodes = self.nodes;
-        let mut light = Light {
-            radiance: [[0.0; LANES]; MAX_NODES],
-            glow: [[0.0; LANES]; MAX_FEATURES],
-            column_m: [0.0; LANES],
-            samples: 0,
-        };
-        let mut glow = GlowLight::new();
-        let mut transmittance = [[1.0_f32; LANES]; MAX_NODES];
-        let mut block_radiance = [[0.0_f32; LANES]; MAX_NODES];
-        let mut block_column = [0.0_f32; LANES];
-        let mut walk = Walk::new(&self.packet);
-        let mut since_flush = 0;
-        loop {
-            let (step, active) = walk.next::<GAS>(&self);
-            if active == 0 {
-                break;
-            }
-            light.samples += active;
-
-            // Each wavelength emits, and is absorbed, over the step.
-            for (n, node) in nodes.iter().enumerate() {
-                let (transmittance, radiance) = (&mut transmittance[n], &mut block_radiance[n]);
-                for lane in 0..LANES {
-                    let wien = lanes::exp(-node.planck_exponent_k * step.inverse_temperature[lane]);
-                    let planck = node.planck_scale * wien / (1.0 - wien);
-                    let absorbed = -lanes::exp_m1(-node.absorption * step.column[lane]);
-                    let emitted = transmittance[lane] * absorbed;
-                    radiance[lane] += planck * emitted;
-                    transmittance[lane] -= emitted;
-                }
-            }
-            for (block, column) in block_column.iter_mut().zip(&step.column) {
-                *block += column;
-            }
-            if GAS {
-                glow.step(self.glow, &step);
-            }
-
-            since_flush += 1;
-            if since_flush == FLUSH {
-                since_flush = 0;
-                for (lane, block) in block_column.iter_mut().enumerate() {
-                    light.column_m[lane] += std::mem::take(block);
-                    walk.done[lane] |= light.column_m[lane] > self.opaque;
-                }
-                for (n, node) in nodes.iter().enumerate() {
-                    for lane in 0..LANES {
-                        light.radiance[n][lane] += block_radiance[n][lane];
-                        block_radiance[n][lane] = 0.0;
-                        transmittance[n][lane] =
-                            lanes::exp(-node.absorption * light.column_m[lane]);
+    /// Follows the ray through one point of the picture and keeps its spectrum.
+    pub fn radiance(&self, point: [f64; 2]) -> Seen {
+        let counts = [self.tables.nodes.len(), self.tables.features.len()];
+        let [mut radiance, mut features] = counts.map(|count| vec![0.0; count]);
+        let mut backdrop = [0.0; 3];
+        let mut ways: [Option<Way>; LANES] = std::array::from_fn(|_| None);
+        ways[0] = Some(self.ways.of(&self.view.ray(point[0], point[1])));
+        if let (Some(light), Some(way)) = (self.follow(&ways), &ways[0]) {
+            let lane = |light: &Lanes| f64::from(light[0]);
+            radiance = light.radiance.iter().take(counts[0]).map(lane).collect();
+            features = light.glow.iter().take(counts[1]).map(lane).collect();
+            match way.end {
+                End::Dark => {}
+                End::Surface(hit) => {
+                    let columns = [&light.column_m, &light.smoke_m].map(lane);
+                    let sent = self.surface(&hit, columns);
+                    for (seen, sent) in [&mut radiance, &mut features].into_iter().zip(sent) {
+                        seen.iter_mut()
+                            .zip(sent)
+                            .for_each(|(seen, sent)| *seen += sent);
                     }
                 }
-                if GAS {
-                    glow.flush(self.glow, &light.column_m);
+                // The soot's own light is no part of what is behind it.
+                End::Screen(screen) => {
+                    let Pixel { opacity, .. } = self.pixel(&light, 0, &End::Dark);
+                    backdrop = std::array::from_fn(|c| screen[c] * (1.0 - f64::from(opacity[c])));
                 }
             }
         }
-        for lane in 0..LANES {
-            light.column_m[lane] += block_column[lane];
-            for (total, block) in light.radiance.iter_mut().zip(&block_radiance) {
-                total[lane] += block[lane];
-            }
-        }
-        if GAS {
-            glow.flush(self.glow, &light.column_m);
-            light.glow = glow.total;
-        }
-        light
-    }
-}
-
-/// Where each ray of a packet is on its way.
-struct Walk {
-    /// Which of its runs, and which step.
-    run: [usize; LANES],
-    step: [u32; LANES],
-    done: [bool; LANES],
-}
-
-impl Walk {
-    #[inline(always)]
-    fn new(packet: &Packet<'_>) -> Self {
-        Self {
-            run: [0; LANES],
-            step: std::array::from_fn(|lane| packet.runs[lane].first().map_or(0, |first| first[0])),
-            done: std::array::from_fn(|lane| packet.runs[lane].is_empty()),
+        Seen {
+            radiance,
+            features,
+            backdrop,
         }
     }
 
-    /// Each ray takes its next sample; those that are through take an empty one. Also how many took one.
-    #[inline(always)]
-    fn next<const GAS: bool>(&mut self, march: &March<'_, GAS>) -> (Step, u64) {
-        let packet = &march.packet;
-        let mut taken = Step {
-            column: [0.0; LANES],
-            inverse_temperature: [1.0; LANES],
-            flame: [0.0; LANES],
-            length: [0.0; LANES],
+    /// What the rays of these ways bring home; `None` if none of them meets anything.
+    fn follow(&self, ways: &[Option<Way>; LANES]) -> Option<Light> {
+        let chords = std::array::from_fn(|lane| ways[lane].as_ref()?.chord.as_ref());
+        if chords.iter().all(Option::is_none) {
+            let is_dark = |way: &Way| matches!(way.end, End::Dark);
+            let is_nothing = ways.iter().flatten().all(is_dark);
+            return (!is_nothing).then(Light::none);
+        }
+        let march = March {
+            medium: self.ways.medium,
+            tables: self.tables,
+            scatter: self.fields.scatter.as_ref(),
+            step_m: self.ways.step_m as f32,
+            packet: Packet::new(chords),
         };
-        let mut active = 0;
-        for lane in 0..LANES {
-            if self.done[lane] {
-                continue;
-            }
-            active += 1;
-            let share = if self.step[lane] == packet.last[lane] {
-                packet.last_share[lane]
-            } else {
-                1.0
-            };
-            let middle = f64::from(self.step[lane]) + 0.5 * f64::from(share);
-            let position: [f64; 3] = std::array::from_fn(|axis| {
-                packet.start[lane][axis] + middle * packet.delta[lane][axis]
-            });
-            let [soot, temperature, burning] = lookup::<GAS>(march.medium, position);
-            taken.column[lane] = soot * (march.step_m * share);
-            taken.inverse_temperature[lane] = 1.0 / temperature;
-            if GAS {
-                (taken.flame[lane], taken.length[lane]) = (burning, march.step_m * share);
-            }
-            (self.step[lane], self.run[lane], self.done[lane]) =
-                advance(packet.runs[lane], self.step[lane], self.run[lane]);
-        }
-        (taken, active)
-    }
-}
-
-/// The step after this one, its run, and whether there is none.
-#[inline(always)]
-fn advance(runs: &[[u32; 2]], step: u32, run: usize) -> (u32, usize, bool) {
-    if step + 1 < runs[run][1] {
-        (step + 1, run, false)
-    } else if let Some(next) = runs.get(run + 1) {
-        (next[0], run + 1, false)
-    } else {
-        (step, run, true)
+        Some(march.run())
     }
 }

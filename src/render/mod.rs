@@ -16,23 +16,38 @@ use thiserror::Error;
 
 use crate::scene::{Scene, WavelengthSet};
 
+mod bend;
+mod cells;
 mod chord;
 pub mod develop;
+mod eikonal;
+pub mod fields;
 pub mod film;
 pub mod glow;
 mod growth;
+mod irradiance;
+mod kernel;
+mod level;
 mod lookup;
 pub mod march;
 pub mod null_collision;
+mod orders;
+mod own_light;
 pub mod pass;
 pub mod plan;
 pub mod probe;
+mod scatter;
+mod shift;
+mod sweep;
+pub mod tables;
 mod walk;
+mod way;
 pub mod white;
 
 pub use film::{Film, Pixel, Tile};
+pub use level::Level;
 pub use pass::{Pass, render_pass};
-pub use plan::Plan;
+pub use plan::{Facts, Plan};
 pub use probe::Probe;
 
 /// How accurate a picture is, in concrete numbers.
@@ -46,6 +61,8 @@ pub struct Settings {
     pub wavelengths: WavelengthSet,
     /// Rays for each pixel; 1 is the pixel's centre.
     pub samples_per_pixel: u32,
+    /// How often light may be scattered where scattering is computed: once without noise, more often by path tracing.
+    pub scattering_orders: u32,
     /// Which effects are computed.
     pub effects: Effects,
 }
@@ -57,6 +74,26 @@ pub struct Effects {
     pub lines: Switch,
     /// Light of radicals in the reaction zone. Auto: unless soot outshines it.
     pub chemiluminescence: Switch,
+    /// The fire's own light, scattered once by soot and smoke. Auto: where it can be seen.
+    pub scattering: Switch,
+    /// Light bent by hot gas. Auto: where something behind the fire shows it.
+    pub refraction: Switch,
+    /// Colours bent differently. Auto: never, for it is a fiftieth of the bending.
+    pub dispersion: Switch,
+    /// The fire as a light for the stage. Auto: where there is a stage.
+    pub fire_light: Switch,
+}
+
+impl Effects {
+    /// Each where it can be seen.
+    pub const AUTO: Self = Self {
+        lines: Switch::Auto,
+        chemiluminescence: Switch::Auto,
+        scattering: Switch::Auto,
+        refraction: Switch::Auto,
+        dispersion: Switch::Auto,
+        fire_light: Switch::Auto,
+    };
 }
 
 /// Whether an effect is computed.
@@ -88,6 +125,9 @@ pub enum SettingsError {
     /// There is no such set.
     #[error("there is no set of {} wavelengths: choose 4, 6 or 8 (fitted), 16, 32 or 64 (plain)", .0.count())]
     Wavelengths(WavelengthSet),
+    /// Too few or too many orders.
+    #[error("render.scattering_orders is {0}: it must lie between 1 and {MAX_ORDERS}")]
+    Orders(u32),
     /// Too few or too many rays.
     #[error("render.samples_per_pixel is {0}: it must lie between 1 and {MAX_SAMPLES}")]
     Samples(u32),
@@ -99,6 +139,8 @@ pub const MAX_SIDE: u32 = 16384;
 pub const MAX_PIXELS: u64 = 1 << 26;
 /// Shortest and longest step in voxels. A step beyond the box is one step of its chord.
 pub const STEP_RANGE: [f64; 2] = [0.01, 64.0];
+/// Most orders of scattering: light that was scattered so often has lost its way, and nearly all of itself.
+pub const MAX_ORDERS: u32 = 64;
 /// Most rays for one pixel.
 pub const MAX_SAMPLES: u32 = 4096;
 
@@ -120,6 +162,9 @@ impl Settings {
         }
         if !(1..=MAX_SAMPLES).contains(&self.samples_per_pixel) {
             return Err(SettingsError::Samples(self.samples_per_pixel));
+        }
+        if !(1..=MAX_ORDERS).contains(&self.scattering_orders) {
+            return Err(SettingsError::Orders(self.scattering_orders));
         }
         Ok(self)
     }
@@ -192,6 +237,8 @@ pub struct Frame {
     pub samples: u64,
     /// Which effects were computed, and why.
     pub decisions: Vec<plan::Decision>,
+    /// What was found out on the way.
+    pub facts: Facts,
     /// What the settings could not show faithfully.
     pub flaws: Flaws,
 }
@@ -224,6 +271,7 @@ pub fn render_still(
         }
     }
     let [rays, samples] = counts.map(AtomicU64::into_inner);
+    let facts = plan.facts();
     Some(Frame {
         film: film
             .into_inner()
@@ -231,6 +279,7 @@ pub fn render_still(
         rays,
         samples,
         decisions: plan.decisions,
+        facts,
         flaws: plan.flaws,
     })
 }

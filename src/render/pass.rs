@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::film::{Pixel, Tile};
 use super::march::{Marcher, PACKET_SIDE};
-use super::{Cancel, Plan, Settings};
+use super::orders::HigherOrders;
+use super::{Cancel, Level, Plan, Settings};
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
 
@@ -74,16 +75,28 @@ pub fn render_pass(
     cancel: &Cancel,
     sink: &(dyn Fn(Tile) + Sync),
 ) -> bool {
-    let Ok(marcher) = Marcher::new(scene, plan, pass.step_voxels) else {
+    // A coarse picture is not worth fine fields.
+    let level = if pass.stride > 1 {
+        Level::Coarse
+    } else {
+        Level::Fine
+    };
+    let Some(fields) = plan.fields(scene, level, cancel) else {
+        return false;
+    };
+    let Ok(marcher) = Marcher::with_fields(scene, plan, fields, pass.step_voxels) else {
         return true;
     };
-    let rays = plan.size.map(|side| side.div_ceil(pass.stride));
+    // Coarse passes are for speed.
+    let higher = (plan.orders > 1 && pass.stride == 1)
+        .then(|| HigherOrders::new(scene, &plan.tables, plan.orders));
+    let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
     let tiles = centre_out(rays);
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     rayon::broadcast(|_| {
         while let Some(&corner) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) {
             let size = [0, 1].map(|axis| TILE.min(rays[axis] - corner[axis]));
-            match render_tile(&marcher, pass, corner, size, cancel) {
+            match render_tile(&marcher, higher.as_ref(), pass, corner, size, cancel) {
                 Some(tile) => sink(tile),
                 None => stopped.store(true, Ordering::Relaxed),
             }
@@ -109,6 +122,7 @@ fn centre_out(rays: [u32; 2]) -> Vec<[u32; 2]> {
 /// `None` if cancelled.
 fn render_tile(
     marcher: &Marcher<'_>,
+    higher: Option<&HigherOrders<'_>>,
     pass: &Pass,
     corner: [u32; 2],
     size: [u32; 2],
@@ -138,7 +152,10 @@ fn render_tile(
             });
             let (packet, taken) = marcher.march(&points);
             samples += taken;
-            for (place, pixel) in places.iter().zip(packet) {
+            for ((place, point), mut pixel) in places.iter().zip(points).zip(packet) {
+                if let (Some(higher), Some(point)) = (higher, point) {
+                    higher.add(point, pass.sample, &mut pixel);
+                }
                 if let Some([x, y]) = place {
                     pixels[(y * size[0] + x) as usize] = pixel;
                 }
@@ -159,7 +176,7 @@ fn render_tile(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::{Effects, Switch};
+    use crate::render::Effects;
     use crate::scene::WavelengthSet;
 
     const SETTINGS: Settings = Settings {
@@ -167,10 +184,8 @@ mod tests {
         step_voxels: 0.5,
         wavelengths: WavelengthSet::Fitted(4),
         samples_per_pixel: 3,
-        effects: Effects {
-            lines: Switch::Auto,
-            chemiluminescence: Switch::Auto,
-        },
+        scattering_orders: 1,
+        effects: Effects::AUTO,
     };
 
     #[test]

@@ -1,44 +1,37 @@
-//! What is computed for a scene at given settings: laws baked into tables for the march.
-//!
-//! The laws are f64; the tables are f32 with the units chosen so that nothing under- or overflows (wavelengths
-//! in nm, Planck's constants per nm).
+//! What is computed for a scene at given settings: which effects, the laws baked into tables, and the fields that the
+//! effects need.
 
-use super::glow::GlowTable;
-use super::{Effects, Flaws, Settings, Switch};
+use std::sync::{Arc, OnceLock};
+
+use super::fields::{Bent, Fields, Paths, Wanted};
+use super::level::Level;
+use super::tables::Tables;
+use super::{Cancel, Effects, Flaws, Settings, Switch};
 use crate::colour::cie;
 use crate::physics::blackbody;
 use crate::scene::Scene;
 use crate::scene::glow::{Feature, Source};
 use crate::spectral::Wavelengths;
 
-/// One wavelength of the march.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Node {
-    /// Absorption coefficient for each unit of the medium's volume fraction, 1/m.
-    pub absorption: f32,
-    /// 2hc²/λ⁵, W m⁻² sr⁻¹ nm⁻¹: Planck's radiance without its exponential.
-    pub planck_scale: f32,
-    /// hc/(λk), K: Planck's exponent times temperature.
-    pub planck_exponent_k: f32,
-}
+mod scattering;
 
-/// Tables for one scene at one accuracy.
-#[derive(Debug, Clone)]
+/// What is computed for one scene at one accuracy.
+#[derive(Debug)]
 pub struct Plan {
-    /// Nodes and what they weigh in XYZ.
-    pub wavelengths: Wavelengths,
-    /// The march's view of the same nodes.
-    pub nodes: Vec<Node>,
-    /// What glows in the gas beside soot.
-    pub glow: GlowTable,
-    /// Picture size in pixels.
-    pub size: [u32; 2],
+    /// The laws.
+    pub tables: Tables,
     /// What these settings cannot show faithfully of this scene.
     pub flaws: Flaws,
     /// Which effects are computed, and why.
     pub decisions: Vec<Decision>,
-    /// Once the medium's column ∫ f_v ds (m) exceeds this, no wavelength lets anything behind be seen.
-    pub opaque_column_m: f32,
+    wanted: Wanted,
+    /// How often light may be scattered; 1 where scattering is off.
+    pub(super) orders: u32,
+    /// Coarse and fine fields, as soon as they have been asked for.
+    fields: [OnceLock<Fields>; 2],
+    bent: OnceLock<Option<Arc<Bent>>>,
+    /// The fields of a scene that calls for none.
+    without: Fields,
 }
 
 /// Whether an effect is computed, and why.
@@ -49,19 +42,22 @@ pub struct Decision {
     /// Whether it is computed.
     pub on: bool,
     /// Why, for a person.
-    pub reason: &'static str,
+    pub reason: String,
 }
 
-/// Most wavelengths of any set.
-pub const MAX_NODES: usize = 64;
+/// What was found out about a picture on the way.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Facts {
+    /// How far refraction moves what lies behind the fire at most, pixels; `None` where light goes straight.
+    pub largest_shift_px: Option<f64>,
+    /// Estimated share of the picture's light that was scattered more often than is computed, and is left out; `None` where
+    /// nothing is scattered.
+    pub orders_left_out: Option<f64>,
+}
 
 /// Optical depth of a step from which on the picture's error is said: the midpoint rule is off by about τ²/24 of a
 /// step's light, here 1 %.
 const THICK_STEP: f64 = 0.5;
-
-/// Optical depth at which a ray stops: what is behind keeps e⁻²⁴ = 4e-11 of its radiance, less than an f32's last digit
-/// unless it is a thousand times as bright as what is in front.
-const OPAQUE_DEPTH: f64 = 24.0;
 
 impl Plan {
     /// Bakes the tables for the settings' own wavelengths.
@@ -69,15 +65,15 @@ impl Plan {
         let wavelengths = settings.wavelengths.wavelengths(scene.flame.soot());
         let mut features = scene.flame.glow().features();
         let decisions = decisions(scene, &features, settings.effects);
-        let is_on = |effect: &str| decisions.iter().any(|it| it.effect == effect && it.on);
-        let with_radicals = is_on(CHEMILUMINESCENCE);
+        let with_radicals = is_on(&decisions, CHEMILUMINESCENCE);
         features.retain(|feature| with_radicals || !feature.is_radical());
-        let mut plan = Self {
-            decisions,
-            ..Self::baked(scene, settings.size, wavelengths, features)
-        };
+        let mut plan = Self::of(scene, settings.size, wavelengths, features, decisions);
+        if plan.wanted.scatter {
+            plan.orders = settings.scattering_orders;
+        }
         let medium = scene.flame.medium();
         let densest = plan
+            .tables
             .nodes
             .iter()
             .map(|node| f64::from(node.absorption))
@@ -91,50 +87,97 @@ impl Plan {
                 settings.step_voxels
             ));
         }
+        if plan.wanted.scatter && plan.tables.features.iter().any(|it| !it.is_radical()) {
+            plan.flaws
+                .add("the light of the salt is dimmed by scattering, but is not seen scattered");
+        }
         plan
     }
 
-    /// Bakes the tables for given wavelengths, at most [`MAX_NODES`] of them: those of a measurement, say. All that
-    /// glows in the gas is in it.
+    /// Bakes the tables for given wavelengths, at most [`MAX_NODES`](super::tables::MAX_NODES) of them: those of a
+    /// measurement, say. All that glows in the gas is in it.
     pub fn with_wavelengths(scene: &Scene, size: [u32; 2], wavelengths: Wavelengths) -> Self {
-        Self::baked(scene, size, wavelengths, scene.flame.glow().features())
+        let features = scene.flame.glow().features();
+        let decisions = decisions(scene, &features, Effects::AUTO);
+        Self::of(scene, size, wavelengths, features, decisions)
     }
 
-    fn baked(
+    fn of(
         scene: &Scene,
         size: [u32; 2],
         wavelengths: Wavelengths,
         features: Vec<Feature>,
+        decisions: Vec<Decision>,
     ) -> Self {
-        debug_assert!(wavelengths.len() <= MAX_NODES);
-        let nodes: Vec<Node> = wavelengths
-            .nodes_nm
-            .iter()
-            .map(|&nm| Node {
-                absorption: scene.flame.absorption_per_sample(nm) as f32,
-                planck_scale: (blackbody::FIRST_RADIATION_CONSTANT / nm.powi(5)) as f32,
-                planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
-            })
-            .collect();
-        let glow = GlowTable::new(&scene.flame, features);
-        let clearest = nodes
-            .iter()
-            .map(|node| node.absorption)
-            .chain(glow.absorptions())
-            .reduce(f32::min);
-        // Where nothing is carried, nothing can be hidden.
-        let opaque_column_m =
-            clearest.map_or(f64::INFINITY, |clearest| OPAQUE_DEPTH / f64::from(clearest)) as f32;
+        let wanted = Wanted {
+            scatter: is_on(&decisions, SCATTERING),
+            fire_light: is_on(&decisions, FIRE_LIGHT),
+            bent: is_on(&decisions, REFRACTION).then(|| {
+                if is_on(&decisions, DISPERSION) {
+                    Paths::Apart
+                } else {
+                    Paths::Common
+                }
+            }),
+        };
         Self {
-            wavelengths,
-            nodes,
-            glow,
-            size,
+            tables: Tables::new(scene, size, wavelengths, features, wanted.scatter),
             flaws: Flaws::default(),
-            decisions: Vec::new(),
-            opaque_column_m,
+            decisions,
+            wanted,
+            orders: 1,
+            fields: [OnceLock::new(), OnceLock::new()],
+            bent: OnceLock::new(),
+            without: Fields::default(),
         }
     }
+
+    /// The fields of a level, worked out in the calling thread's rayon pool when they are asked for first; `None` if that
+    /// was cancelled. The scene is the plan's own.
+    pub fn fields(&self, scene: &Scene, level: Level, cancel: &Cancel) -> Option<&Fields> {
+        if self.wanted == Wanted::default() {
+            return Some(&self.without);
+        }
+        let cell = &self.fields[level as usize];
+        if let Some(ready) = cell.get() {
+            return Some(ready);
+        }
+        let bent = self.wanted.bent.and_then(|paths| {
+            let bent = || Bent::new(scene, self.tables.size, paths).map(Arc::new);
+            self.bent.get_or_init(bent).clone()
+        });
+        let fields = Fields::new(scene, &self.tables, self.wanted, bent, level, cancel)?;
+        Some(cell.get_or_init(|| fields))
+    }
+
+    /// The fine fields.
+    pub(super) fn fine_fields(&self, scene: &Scene) -> &Fields {
+        // What nothing cancels is there.
+        self.fields(scene, Level::Fine, &Cancel::never())
+            .unwrap_or(&self.without)
+    }
+
+    /// What has been found out so far.
+    pub fn facts(&self) -> Facts {
+        let [coarse, fine] = &self.fields;
+        let fields = fine.get().or_else(|| coarse.get());
+        let bent = fields.and_then(|fields| fields.bent.as_ref());
+        let scatter = fields.and_then(|fields| fields.scatter.as_ref());
+        Facts {
+            largest_shift_px: bent.map(|bent| bent.largest_shift_px),
+            orders_left_out: scatter.map(|scatter| scatter.orders_left_out(self.orders)),
+        }
+    }
+}
+
+/// Names among the effects.
+const SCATTERING: &str = "scattering";
+const REFRACTION: &str = "refraction";
+const DISPERSION: &str = "dispersion";
+const FIRE_LIGHT: &str = "fire_light";
+
+fn is_on(decisions: &[Decision], effect: &str) -> bool {
+    decisions.iter().any(|it| it.effect == effect && it.on)
 }
 
 /// The name of the radicals' light among the effects.
@@ -142,7 +185,11 @@ const CHEMILUMINESCENCE: &str = "chemiluminescence";
 
 /// Which effects a scene calls for.
 fn decisions(scene: &Scene, features: &[Feature], effects: Effects) -> Vec<Decision> {
-    let decision = |effect, on, reason| Decision { effect, on, reason };
+    let decision = |effect, on, reason: &str| Decision {
+        effect,
+        on,
+        reason: reason.to_owned(),
+    };
     let glow = scene.flame.glow();
     vec![
         if scene.flame.medium().peak_volume_fraction() > 0.0 {
@@ -172,10 +219,41 @@ fn decisions(scene: &Scene, features: &[Feature], effects: Effects) -> Vec<Decis
                 true,
                 "burning gas may be seen beside the soot",
             ),
-            Switch::On => decision(CHEMILUMINESCENCE, true, "it was asked for"),
+            Switch::On => decision(CHEMILUMINESCENCE, true, ASKED_FOR),
+        },
+        scattering::decide(scene, effects.scattering),
+        match effects.refraction {
+            Switch::Off => decision(REFRACTION, false, "effects.refraction is off"),
+            _ if scene.flame.bending().is_none() => {
+                decision(REFRACTION, false, "nothing behind the fire shows it")
+            }
+            Switch::Auto => decision(REFRACTION, true, "what is behind the fire shows it"),
+            Switch::On => decision(REFRACTION, true, ASKED_FOR),
+        },
+        match scene.flame.bending() {
+            _ if effects.dispersion == Switch::Off => {
+                decision(DISPERSION, false, "effects.dispersion is off")
+            }
+            Some(bending) if bending.bending.dispersion => decision(DISPERSION, true, ASKED_FOR),
+            _ => decision(
+                DISPERSION,
+                false,
+                "it is a fiftieth of the bending, and was not asked for",
+            ),
+        },
+        match effects.fire_light {
+            Switch::Off => decision(FIRE_LIGHT, false, "effects.fire_light is off"),
+            _ if !scene.stage.has_surfaces() => {
+                decision(FIRE_LIGHT, false, "there is nothing that it could fall on")
+            }
+            Switch::Auto => decision(FIRE_LIGHT, true, "it falls on the stage"),
+            Switch::On => decision(FIRE_LIGHT, true, ASKED_FOR),
         },
     ]
 }
+
+/// Why an effect is computed that a person switched on.
+const ASKED_FOR: &str = "it was asked for";
 
 /// Luminance of the radicals beside that of the soot at the same place (or beside a thirtieth of the brightest soot's)
 /// below which they are left out: a thousandth of what is there, and less than a step of 8 bits where nothing is, at the

@@ -2,6 +2,7 @@
 
 use super::march::Marcher;
 use super::plan::Plan;
+use super::{Cancel, Level};
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::physics::blackbody;
 use crate::scene::camera::CameraError;
@@ -34,16 +35,24 @@ impl Probe {
     pub fn new(scene: &Scene, size: [u32; 2], point: [f64; 2]) -> Result<Self, CameraError> {
         let wavelengths = WAVELENGTHS.wavelengths(scene.flame.soot());
         let plan = Plan::with_wavelengths(scene, size, wavelengths);
-        let [radiance, lines] = Marcher::new(scene, &plan, STEP_VOXELS)?.radiance(point);
-        let mut probe = Self::of(
-            &plan.wavelengths,
-            &radiance,
-            plan.glow.xyz_of(lines.iter().copied()),
-        );
+        let never = Cancel::never();
+        let fields = plan.fields(scene, Level::Coarse, &never);
+        let marcher = match fields {
+            Some(fields) => Marcher::with_fields(scene, &plan, fields, STEP_VOXELS)?,
+            None => Marcher::new(scene, &plan, STEP_VOXELS)?,
+        };
+        let seen = marcher.radiance(point);
+        let tables = &plan.tables;
+        let lines = tables.glow.xyz_of(seen.features.iter().copied());
+        let beside = std::array::from_fn(|c| lines[c] + seen.backdrop[c]);
+        let mut probe = Self::of(&tables.wavelengths, &seen.radiance, beside);
         // A line is narrower than any band: it shows as its mean over the one that it lies in.
         let half = 0.5 * BAND_NM;
         for [nm, radiance] in &mut probe.spectrum {
-            *radiance += plan.glow.light_in([*nm - half, *nm + half], &lines) / BAND_NM;
+            *radiance += tables
+                .glow
+                .light_in([*nm - half, *nm + half], &seen.features)
+                / BAND_NM;
         }
         Ok(probe)
     }

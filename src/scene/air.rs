@@ -2,7 +2,7 @@
 
 use super::fuel::Fuel;
 use crate::physics::hot_gas::FireGas;
-use crate::physics::moist_air::{AirError, Ambient, STANDARD_PRESSURE_PA};
+use crate::physics::moist_air::{AirError, Ambient, Edition, STANDARD_PRESSURE_PA};
 
 /// What the air is like, far from the flame.
 ///
@@ -17,6 +17,10 @@ pub struct Air {
     pub humidity: f64,
     /// Mole fraction of carbon dioxide, parts in a million, 0 to 2000: the range of Ciddor's equation.
     pub co2_ppm: f64,
+    /// Pressure, Pa, 0 to 1e6. It counts for the refractive index only.
+    pub pressure_pa: f64,
+    /// Whose saturation pressure says how much water the humidity is.
+    pub edition: Edition,
 }
 
 impl Default for Air {
@@ -26,14 +30,13 @@ impl Default for Air {
             temperature_k: 300.0,
             humidity: 0.5,
             co2_ppm: 420.0,
+            pressure_pa: STANDARD_PRESSURE_PA,
+            edition: Edition::default(),
         }
     }
 }
 
 impl Air {
-    /// Pressure of the air, Pa: that of the standard atmosphere.
-    pub const PRESSURE_PA: f64 = STANDARD_PRESSURE_PA;
-
     /// How the gas of a fire in this air bends light.
     ///
     /// # Errors
@@ -41,11 +44,11 @@ impl Air {
     pub fn gas(&self, fuel: Fuel) -> Result<FireGas, AirError> {
         let ambient = Ambient {
             temperature_k: self.temperature_k,
-            pressure_pa: Self::PRESSURE_PA,
+            pressure_pa: self.pressure_pa,
             humidity: self.humidity,
             co2_ppm: self.co2_ppm,
         };
-        FireGas::new(&ambient, Some(fuel.row().atoms))
+        FireGas::by(self.edition, &ambient, Some(fuel.row().atoms))
     }
 
     /// Which share of the gas has burnt where it is so hot: all of it at the fuel's flame temperature, nothing at the

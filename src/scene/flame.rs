@@ -11,6 +11,7 @@ use super::interpolation::Interpolation;
 use super::medium::Medium;
 use super::packing::{self, Burning, Fields, GasFields, PackingError};
 use crate::math::Aabb;
+use crate::physics::constants::METRES_PER_NM;
 use crate::physics::soot::{self, Hold, SootLaw, SootModel};
 use crate::volume::{FieldMap, FieldMaps, Limits, UpAxis, Volume};
 
@@ -34,6 +35,11 @@ impl Placement {
         DAffine3::from_mat3(turn * self.metres_per_unit)
     }
 }
+
+/// How much hotter than the air gas must be for its bricks to be stored where light is bent, K. One kelvin at 300 K
+/// changes n by 9e-7: over the width of a brick that bends a ray by a microradian, less than a hundredth of a pixel; and a
+/// file's noise about its background fills no bricks.
+const BENDS_ABOVE_AIR_K: f64 = 1.0;
 
 /// Everything about the flame that a person can set.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,6 +66,28 @@ pub struct FlameParams {
     pub air: Air,
     /// How values between the samples of a field are formed.
     pub interpolation: Interpolation,
+    /// How soot and smoke scatter; `None` where that is not to be computed.
+    pub scattering: Option<ScatteringParams>,
+    /// How hot gas bends light; `None` where nothing shows it or it is not to be computed.
+    pub bending: Option<Bending>,
+}
+
+/// How soot and smoke scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScatteringParams {
+    /// Mean cosine g of the scattering, −1 to 1 open; `None`: that of a sphere of the soot's radius, by Mie's series.
+    pub asymmetry: Option<f64>,
+    /// Share of what smoke takes from light that it scatters, 0 to below 1.
+    pub smoke_albedo: f64,
+}
+
+/// How hot gas bends light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bending {
+    /// Multiplies the gradient of the refractive index; 1 is nature's.
+    pub gain: f64,
+    /// Whether colours take paths of their own.
+    pub dispersion: bool,
 }
 
 impl FlameParams {
@@ -99,6 +127,7 @@ impl FlameParams {
         let (amounts, common) = self.packed_amounts();
         let glow = self.shining_gas();
         let gas = self.gas_fields(&glow);
+        let scattering = self.scattering.filter(|_| self.has_soot());
         Effect {
             key: PackingKey {
                 maps: FieldMaps {
@@ -114,16 +143,33 @@ impl FlameParams {
                     None => self.air.temperature_k,
                 },
                 gas,
+                smoke_apart: scattering.is_some() && amounts[1] > 0.0,
                 interpolation: self.interpolation,
             },
             soot: self.fuel.soot_law(self.soot_model),
             volume_fraction_factor: common
                 * soot::volume_fraction_factor(self.soot_hold, self.soot_radius_nm),
             glow,
+            // Without soot and smoke nothing scatters.
+            scattering: scattering.map(|params| Scattering {
+                params,
+                radius_m: self.soot_radius_nm * METRES_PER_NM,
+            }),
+            bending: self.bends().map(|bending| BentAir {
+                bending,
+                air: self.air,
+                fuel: self.fuel,
+                clear_k: self.glow.clear_k,
+            }),
         }
     }
 
-    /// What of the gas is packed for a glow.
+    /// How the gas bends light, where anything says how hot it is.
+    fn bends(&self) -> Option<Bending> {
+        self.bending.filter(|_| self.maps.temperature.is_some())
+    }
+
+    /// What of the gas is packed for a glow, and for bent light.
     fn gas_fields(&self, glow: &Glow) -> GasFields {
         let burning = if self.maps.flame.is_some() {
             Burning::Field
@@ -133,6 +179,9 @@ impl FlameParams {
         GasFields {
             burning: glow.has_radicals().then_some(burning),
             hot_above_k: glow.has_metal().then(|| glow.vapour_above_k()),
+            bends_above_k: self
+                .bends()
+                .map(|_| self.air.temperature_k.max(self.glow.clear_k) + BENDS_ABOVE_AIR_K),
         }
     }
 
@@ -168,6 +217,8 @@ struct PackingKey {
     amounts: [f64; 2],
     ambient_k: f64,
     gas: GasFields,
+    /// Whether it must be known which part of the soot is smoke.
+    smoke_apart: bool,
     interpolation: Interpolation,
 }
 
@@ -180,6 +231,7 @@ impl PackingKey {
             amounts: self.amounts,
             ambient_k: self.ambient_k,
             gas: self.gas,
+            smoke_apart: self.smoke_apart,
             interpolation: self.interpolation,
         }
     }
@@ -193,6 +245,32 @@ struct Effect {
     /// Multiplies the medium's volume fraction: amount and radius.
     volume_fraction_factor: f64,
     glow: Glow,
+    scattering: Option<Scattering>,
+    bending: Option<BentAir>,
+}
+
+/// How the medium scatters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scattering {
+    /// What was asked for.
+    pub params: ScatteringParams,
+    /// Radius of the soot's primary particles, m.
+    pub radius_m: f64,
+}
+
+/// The gas that bends light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BentAir {
+    /// What was asked for.
+    pub bending: Bending,
+    /// The air around.
+    pub air: Air,
+    /// Whose products it mixes with.
+    pub fuel: Fuel,
+    /// Temperature of gas of which the volume says nothing, K: see [`Refractivity`].
+    ///
+    /// [`Refractivity`]: super::refractivity::Refractivity
+    pub clear_k: f64,
 }
 
 /// A volume made into a medium with optics. Cheap to clone.
@@ -249,6 +327,40 @@ impl Flame {
     /// What glows in the gas beside soot.
     pub fn glow(&self) -> &Glow {
         &self.effect.glow
+    }
+
+    /// How this flame's soot and smoke scatter; `None` where that is not to be computed.
+    pub fn scattering(&self) -> Option<&Scattering> {
+        self.effect.scattering.as_ref()
+    }
+
+    /// Scattering coefficients at a wavelength for a volume fraction of the *medium* that is soot, and that is smoke, 1/m
+    /// for each unit; zero where scattering is not to be computed.
+    pub fn scattering_per_sample(&self, lambda_nm: f64) -> [f64; 2] {
+        let Some(Scattering { params, radius_m }) = self.effect.scattering else {
+            return [0.0; 2];
+        };
+        let absorption = self.absorption_per_sample(lambda_nm);
+        let ratio = self.effect.soot.scattering_ratio(lambda_nm, radius_m);
+        let albedo = params.smoke_albedo;
+        [ratio, albedo / (1.0 - albedo)].map(|ratio| absorption * ratio)
+    }
+
+    /// Mean cosine of the scattering at a wavelength, −1 to 1 open.
+    ///
+    /// What was asked for, else that of the soot's spheres by Mie's series; 0 where nothing scatters. Smoke is taken to
+    /// scatter into the same directions.
+    pub fn asymmetry(&self, lambda_nm: f64) -> f64 {
+        let Some(Scattering { params, radius_m }) = self.effect.scattering else {
+            return 0.0;
+        };
+        let of_spheres = || self.effect.soot.asymmetry(lambda_nm, radius_m);
+        params.asymmetry.unwrap_or_else(of_spheres)
+    }
+
+    /// How this flame's gas bends light; `None` where that is not to be computed.
+    pub fn bending(&self) -> Option<&BentAir> {
+        self.effect.bending.as_ref()
     }
 
     /// Absorption coefficient at a wavelength for a volume fraction of the *medium*, 1/m for each unit: the

@@ -34,6 +34,8 @@ pub struct Medium {
     pub(crate) lattice_from_world: DAffine3,
     /// Where the field is defined, in lattice coordinates; outside is air.
     pub(crate) domain: Aabb,
+    /// From the first to the last sample of the file, in lattice coordinates: what lies beyond is not in the data.
+    pub(crate) data: Aabb,
     /// Bricks along each axis.
     pub(crate) bricks: UVec3,
     /// Index into `samples`, in units of bricks, for each brick, x fastest; [`NO_BRICK`] where there is no soot.
@@ -42,6 +44,9 @@ pub struct Medium {
     pub(crate) samples: Vec<Sample>,
     /// The flame field 0 to 1 of the same samples; empty where no burning gas glows.
     pub(crate) flame: Vec<f32>,
+    /// Which part of the soot volume fraction of the same samples is smoke; empty where smoke scatters as soot does, or
+    /// nothing scatters.
+    pub(crate) smoke: Vec<f32>,
     /// How values between samples are formed.
     pub(crate) interpolation: Interpolation,
     /// Edge of a voxel in metres: the cube root of its volume.
@@ -140,7 +145,8 @@ impl Medium {
 
     /// Memory that the packed fields and their table take, bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.samples[..]) + size_of_val(&self.flame[..]) + size_of_val(&self.table[..])
+        let beside = size_of_val(&self.flame[..]) + size_of_val(&self.smoke[..]);
+        size_of_val(&self.samples[..]) + beside + size_of_val(&self.table[..])
     }
 
     /// A ray of the world in lattice coordinates, with the part of it inside the domain, in metres along it.
@@ -164,6 +170,15 @@ impl Medium {
             return 0.0;
         }
         self.interpolated(position, |i| [f64::from(self.flame[i])])[0]
+    }
+
+    /// Which part of the soot volume fraction at a point of the lattice is smoke; 0 where no brick is or smoke is packed
+    /// as soot.
+    pub fn smoke(&self, position: DVec3) -> f64 {
+        if self.smoke.is_empty() {
+            return 0.0;
+        }
+        self.interpolated(position, |i| [f64::from(self.smoke[i])])[0]
     }
 
     /// The interpolated value of what `read` reads of a stored sample; zero where no brick is.

@@ -1,4 +1,4 @@
-//! What is looked at, and from where: a [`Flame`] and a [`Camera`].
+//! What is looked at, and from where: a [`Flame`], a [`Stage`] around it and a [`Camera`].
 //!
 //! The way from a file to something that can be marched: a `Volume` of named grids and [`FlameParams`] give a
 //! [`Medium`] (fields in physical units, packed for the march) and optics (laws of the fuel's soot). Grids are
@@ -7,6 +7,7 @@
 mod air;
 pub mod camera;
 mod camera_moves;
+mod columns;
 pub mod curves;
 mod fit;
 pub mod flame;
@@ -18,12 +19,14 @@ mod named;
 pub mod optics;
 mod packing;
 pub mod quadrature;
+pub mod refractivity;
 pub mod salt;
 mod source;
+pub mod stage;
 
 pub use air::Air;
 pub use camera::Camera;
-pub use flame::{Flame, FlameParams, Placement};
+pub use flame::{Bending, BentAir, Flame, FlameParams, Placement, Scattering, ScatteringParams};
 pub use fuel::Fuel;
 pub use glow::{Glow, GlowParams};
 pub use interpolation::Interpolation;
@@ -32,6 +35,7 @@ pub use optics::{Coefficients, Local, Optics};
 pub use packing::PackingError;
 pub use quadrature::WavelengthSet;
 pub use salt::Salt;
+pub use stage::Stage;
 
 /// Everything that light passes on its way to the film.
 #[derive(Debug, Clone)]
@@ -40,6 +44,8 @@ pub struct Scene {
     pub flame: Flame,
     /// The eye.
     pub camera: Camera,
+    /// What stands around.
+    pub stage: Stage,
 }
 
 /// Packs a volume whose fields are physical and in metres, for tests of the floors above. Where there is a flame field,
@@ -58,7 +64,9 @@ pub(crate) fn pack_for_tests(
         gas: packing::GasFields {
             burning: maps.flame.as_ref().map(|_| packing::Burning::Field),
             hot_above_k: maps.flame.as_ref().map(|_| glow::VAPOUR_K[0]),
+            bends_above_k: None,
         },
+        smoke_apart: maps.smoke.is_some(),
         interpolation,
     };
     fields.pack(&glam::DAffine3::IDENTITY, &crate::volume::Limits::default())

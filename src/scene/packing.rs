@@ -63,6 +63,8 @@ pub(super) struct Fields<'a> {
     pub(super) ambient_k: f64,
     /// What of the gas must be there beside soot.
     pub(super) gas: GasFields,
+    /// Whether it must be known which part of the soot is smoke.
+    pub(super) smoke_apart: bool,
     /// How values between samples will be formed.
     pub(super) interpolation: Interpolation,
 }
@@ -74,6 +76,9 @@ pub(super) struct GasFields {
     pub(super) burning: Option<Burning>,
     /// Temperature above which gas glows by its heat, K: bricks without soot are stored where it is hotter.
     pub(super) hot_above_k: Option<f64>,
+    /// Temperature above which gas bends light, K: bricks without soot are stored where it is hotter, and where the
+    /// gradient reaches that hotter gas has beside it.
+    pub(super) bends_above_k: Option<f64>,
 }
 
 /// What says where gas burns.
@@ -138,6 +143,21 @@ impl Fields<'_> {
                 _ => read_flame(flame.as_ref(), first(brick), burning),
             });
 
+        let smoke = layout::absorber(self, self.maps.smoke.as_ref(), self.amounts[1], reference)
+            .filter(|_| self.smoke_apart);
+        let mut of_smoke = vec![0.0; if smoke.is_some() { count } else { 0 }];
+        if let Some(smoke) = &smoke {
+            of_smoke
+                .par_chunks_exact_mut(BRICK_SAMPLES)
+                .zip(occupied)
+                .for_each(|(of_smoke, brick)| {
+                    let value = smoke.read(first(brick));
+                    for_each_sample(of_smoke, first(brick), |voxel, of_smoke| {
+                        *of_smoke = value(voxel) as f32;
+                    });
+                });
+        }
+
         let reach = match reference.border() {
             Border::Clamp => 0.5,
             Border::Background => f64::from(self.interpolation.reach()),
@@ -151,15 +171,20 @@ impl Fields<'_> {
                 min: (min - origin).as_dvec3() - reach,
                 max: (max - 1 - origin).as_dvec3() + reach,
             },
+            data: Aabb {
+                min: (min - origin).as_dvec3(),
+                max: (max - 1 - origin).as_dvec3(),
+            },
             bricks,
             table: vec![NO_BRICK; bricks.as_u64vec3().element_product() as usize],
             samples,
             flame: burning,
+            smoke: of_smoke,
             voxel_size_m: world_from_lattice.matrix3.determinant().abs().cbrt(),
             interpolation: self.interpolation,
             ..empty()
         };
-        medium.keep_what_shows(occupied, self.gas.hot_above_k);
+        medium.keep_what_shows(occupied, self.gas);
         Ok(medium)
     }
 }
@@ -167,9 +192,11 @@ impl Fields<'_> {
 impl Medium {
     /// Enters the packed bricks into the table, closing the gaps of those in which nothing shows (a brick beside one
     /// with soot only in its far corner), and notes the peaks. A smooth interpolation reads from the neighbours of what
-    /// shows, so it keeps them.
-    fn keep_what_shows(&mut self, packed: &[UVec3], hot_above_k: Option<f64>) {
-        let hot_above_k = hot_above_k.map_or(f32::INFINITY, |kelvin| kelvin as f32);
+    /// shows, so it keeps them. Gas that only bends light is kept, and is no peak: nothing of it is seen.
+    fn keep_what_shows(&mut self, packed: &[UVec3], gas: GasFields) {
+        let hot_above_k = gas
+            .hot_above_k
+            .map_or(f32::INFINITY, |kelvin| kelvin as f32);
         let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
         let parts: Vec<Option<Peaks>> = bricks
             .enumerate()
@@ -201,14 +228,23 @@ impl Medium {
         if self.interpolation == Interpolation::Tricubic {
             shows = self.beside(packed, &shows);
         }
+        if let Some(kelvin) = gas.bends_above_k {
+            let bends = self.bending(packed, kelvin as f32);
+            shows
+                .iter_mut()
+                .zip(bends)
+                .for_each(|(shows, bends)| *shows |= bends);
+        }
         let mut kept = 0;
         for (i, &brick) in packed.iter().enumerate() {
             if !shows[i] {
                 continue;
             }
             let own = i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES;
-            if !self.flame.is_empty() {
-                self.flame.copy_within(own.clone(), kept * BRICK_SAMPLES);
+            for beside in [&mut self.flame, &mut self.smoke] {
+                if !beside.is_empty() {
+                    beside.copy_within(own.clone(), kept * BRICK_SAMPLES);
+                }
             }
             self.samples.copy_within(own, kept * BRICK_SAMPLES);
             let index = self.brick_index(brick);
@@ -217,8 +253,54 @@ impl Medium {
         }
         self.samples.truncate(kept * BRICK_SAMPLES);
         self.samples.shrink_to_fit();
-        self.flame.truncate(kept * BRICK_SAMPLES);
-        self.flame.shrink_to_fit();
+        for beside in [&mut self.flame, &mut self.smoke] {
+            beside.truncate(kept * BRICK_SAMPLES);
+            beside.shrink_to_fit();
+        }
+    }
+
+    /// Which bricks bend light: those that hold gas hotter than this, and those at whose border the difference between
+    /// neighbours reaches such gas. Without the latter the gradient would end in a step at a brick's face.
+    fn bending(&self, packed: &[UVec3], above_k: f32) -> Vec<bool> {
+        let edge = SAMPLES as i32;
+        let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
+        // The bricks that each one makes bend: itself, and those beside a face whose next layer is hot.
+        let reached: Vec<Vec<IVec3>> = bricks
+            .map(|samples| {
+                let mut reached = Vec::new();
+                let mut add = |step: IVec3| {
+                    if !reached.contains(&step) {
+                        reached.push(step);
+                    }
+                };
+                for (i, _) in samples.iter().enumerate().filter(|(_, s)| s[1] > above_k) {
+                    let i = i as i32;
+                    add(IVec3::ZERO);
+                    let place = [i % edge, i / edge % edge, i / (edge * edge)];
+                    for (at, axis) in place.into_iter().zip(IVec3::AXES) {
+                        match at {
+                            1 => add(-axis),
+                            _ if at == edge - 2 => add(axis),
+                            _ => {}
+                        }
+                    }
+                }
+                reached
+            })
+            .collect();
+        let mut marks = vec![false; self.table.len()];
+        for (brick, steps) in packed.iter().zip(&reached) {
+            for step in steps {
+                let beside = brick.as_ivec3() + step;
+                if beside.cmpge(IVec3::ZERO).all() && beside.cmplt(self.bricks.as_ivec3()).all() {
+                    marks[self.brick_index(beside.as_uvec3())] = true;
+                }
+            }
+        }
+        packed
+            .iter()
+            .map(|&brick| marks[self.brick_index(brick)])
+            .collect()
     }
 
     /// The flame field of a sample; 0 where none is stored.
@@ -304,10 +386,15 @@ pub(super) fn empty() -> Medium {
             min: DVec3::ZERO,
             max: DVec3::ZERO,
         },
+        data: Aabb {
+            min: DVec3::ZERO,
+            max: DVec3::ZERO,
+        },
         bricks: UVec3::ZERO,
         table: Vec::new(),
         samples: Vec::new(),
         flame: Vec::new(),
+        smoke: Vec::new(),
         voxel_size_m: 1.0,
         interpolation: Interpolation::default(),
         peaks: Peaks::default(),

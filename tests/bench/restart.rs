@@ -19,7 +19,17 @@ use sootlight::project::{Job, Project};
 use sootlight::volume::{self, BuiltIn, Limits, Volume};
 
 /// How many times the slider moves.
-const MOVES: u32 = 120;
+const MOVES: u32 = 60;
+/// What the scenes call for beside emission and absorption.
+const SCENES: [(&str, &[&str]); 4] = [
+    ("", &["effects.scattering=off"]),
+    (", scattering", &["effects.scattering=on"]),
+    (
+        ", backdrop",
+        &["effects.scattering=off", "stage.backdrop=checker"],
+    ),
+    (", ground", &["effects.scattering=off", "stage.ground=true"]),
+];
 /// Size of the picture.
 const SIZE: [u32; 2] = [1280, 720];
 
@@ -39,14 +49,22 @@ fn main() {
     );
     for (name, files) in flame.into_iter().chain(shared) {
         match volume::open_or_built_in(&files, BuiltIn::default(), &Limits::default()) {
-            Ok(volume) => measure(name, &Arc::new(volume)),
+            Ok(volume) => {
+                let volume = Arc::new(volume);
+                for (what, sets) in SCENES {
+                    measure(&format!("{name}{what}"), &volume, sets);
+                }
+            }
             Err(error) => println!("  {name}: {error}"),
         }
     }
 }
 
-fn measure(name: &str, volume: &Arc<Volume>) {
+fn measure(name: &str, volume: &Arc<Volume>, sets: &[&str]) {
     let mut project = Project::default();
+    if let Err(error) = project.set_all(sets.iter().copied()) {
+        return println!("  {name}: {error}");
+    }
     project.render.size = SIZE;
     let (engine, mut picture) =
         match Engine::new(Engine::threads_beside_a_window(), Box::new(|| {})) {
@@ -66,7 +84,7 @@ fn measure(name: &str, volume: &Arc<Volume>) {
     times.sort_by(f64::total_cmp);
     let at = |share: f64| times[((times.len() - 1) as f64 * share).round() as usize];
     println!(
-        "  {name:<16} median {:5.1} ms, 90 % {:5.1} ms, 99 % {:5.1} ms, longest {:5.1} ms",
+        "  {name:<26} median {:5.1} ms, 90 % {:5.1} ms, 99 % {:5.1} ms, longest {:5.1} ms",
         at(0.5),
         at(0.9),
         at(0.99),

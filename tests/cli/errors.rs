@@ -38,6 +38,35 @@ fn wrong_usage_is_2_and_names_what_would_be_right() {
             "render -o a.png --set camera.fov_deg=180",
             "camera.fov_deg is 180",
         ),
+        (
+            "render -o a.png --set air.pressure_pa=10",
+            "air.pressure_pa is 10: it must lie between 1000 and 1000000",
+        ),
+        (
+            "render -o a.png --set air.saturation=hunag",
+            "did you mean huang?",
+        ),
+        (
+            "render -o a.png --set soot.asymmetry=1",
+            "soot.asymmetry is 1",
+        ),
+        (
+            "render -o a.png --set stage.spheres=[[0,0,0,-1]]",
+            "stage.spheres: the radius of sphere 1 is -1 m",
+        ),
+        (
+            "render -o a.png --set stage.spheres=[[0,0,0]]",
+            "lists of four numbers of m",
+        ),
+        (
+            "render -o a.png --set stage.backdrop=picture",
+            "set stage.backdrop_picture",
+        ),
+        (
+            "render -o a.png --set stage.ground=true --set air.temperature_k=400 --set air.humidity=1 --set \
+             air.pressure_pa=1000",
+            "(air.humidity, air.temperature_k, air.pressure_pa)",
+        ),
         ("rendr", "did you mean render?"),
         ("render -o a.png --frobnicate", "--frobnicate"),
     ];
@@ -61,11 +90,24 @@ fn wrong_usage_is_2_and_names_what_would_be_right() {
 fn failed_work_is_1_names_the_file_and_leaves_nothing_behind() {
     let place = Place::new();
     std::fs::write(place.path("bad.txt"), "4 4 4\n1 2 three\n").unwrap();
+    std::fs::write(place.path("bad.png"), "no picture").unwrap();
     let cases = [
         ("render no-such.vdb -o a.png", "no-such.vdb"),
         ("render bad.txt -o a.png", "bad.txt"),
         ("info bad.txt", "bad.txt"),
         ("render --scene no-such.toml -o a.png", "no-such.toml"),
+        (
+            "render -o a.png --set stage.backdrop=picture --set stage.backdrop_picture=bad.txt",
+            "bad.txt cannot be shown: expected a PNG picture, found no picture",
+        ),
+        (
+            "render -o a.png --set stage.backdrop=picture --set stage.backdrop_picture=no-such.png",
+            "no-such.png cannot be read",
+        ),
+        (
+            "render -o bad.png --set stage.backdrop=picture --set stage.backdrop_picture=bad.png",
+            "is a file that the picture is made from",
+        ),
         ("render -o missing/a.png", "folder does not exist"),
         ("render -o density.txt/a.png", "is a file, not a folder"),
         (

@@ -35,7 +35,11 @@ fn statistics_tell_what_burns_and_which_effects_were_computed() {
     assert_eq!(copper["settings"]["interpolation"], "tricubic");
     let effects = plan(&copper);
     let states: Vec<&str> = effects.iter().map(|row| row[1].as_str()).collect();
-    assert_eq!(states, ["off", "on", "on"], "{effects:?}");
+    assert_eq!(
+        states,
+        ["off", "on", "on", "off", "off", "off", "off"],
+        "{effects:?}"
+    );
     assert_eq!(effects[0][2], "there is no soot");
 
     let torch = stats(&place, "--set view.curve=eye --set view.adaptation=0.5");
@@ -48,7 +52,9 @@ fn statistics_tell_what_burns_and_which_effects_were_computed() {
     assert_eq!(effects[2][1], "off");
     assert!(effects[2][2].starts_with("no field says where gas burns"));
 
-    let off = "--preset copper --set effects.lines=off --set effects.chemiluminescence=off --set soot.amount=1";
+    let off = "--preset copper --set effects.lines=off --set effects.chemiluminescence=off --set soot.amount=1 \
+               --set effects.scattering=off --set effects.refraction=off --set effects.dispersion=off \
+               --set effects.fire_light=off";
     for row in &plan(&stats(&place, off))[1..] {
         assert_eq!(
             row[1..],

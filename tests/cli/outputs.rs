@@ -60,7 +60,7 @@ fn a_picture_is_not_written_over_its_own_volume() {
     fs::copy(place.path("density.txt"), place.path("density.png")).unwrap();
     let words = "render density.png temperature.txt --size 16x9 -o ./density.png";
     let [_, error] = place.expect(1, words);
-    assert!(error.contains("of the volume itself"), "{error}");
+    assert!(error.contains("that the picture is made from"), "{error}");
     assert_eq!(place.text("density.png"), place.text("density.txt"));
 }
 

@@ -248,11 +248,44 @@ fn light_scattered_once_is_what_quadrature_finds() {
         let expected = once_scattered(depth / EDGE_M, albedo, hg(asymmetry), planck);
         let estimate = middle(&scene, &one(), &params, 100_000);
         assert_near(&estimate, [expected; 3], &format!("g {asymmetry}"));
+        // Paths that are made to scatter more often, in soot as well through which most would go straight.
+        let often = Params {
+            scattering_points: 8.0,
+            ..params
+        };
+        let estimate_often = middle(&scene, &one(), &often, 100_000);
+        assert_near(
+            &estimate_often,
+            [expected; 3],
+            &format!("g {asymmetry}, often"),
+        );
         results.push((expected, estimate.variance_of_mean[1].sqrt()));
     }
     // Seen from outside, there is more fire ahead than behind: the comparison tells forwards from backwards.
     let (backwards, forwards) = (results[0], results[2]);
     assert!(forwards.0 - backwards.0 > 20.0 * forwards.1, "{results:?}");
+}
+
+#[test]
+fn thin_soot_is_known_as_well_when_paths_are_made_to_scatter() {
+    let (depth, kelvin, albedo) = (1e-4, 1700.0, 0.6);
+    let scene = even(depth, kelvin);
+    let planck = blackbody::spectral_radiance(NM, kelvin);
+    let params = Params {
+        scattering: Scattering::Albedo(albedo),
+        min_bounces: 1,
+        max_bounces: 1,
+        scattering_points: 8.0,
+        ..Params::default()
+    };
+    // Of the light that is scattered once, by quadrature; directly seen is the same with and without scattering.
+    let isotropic = hg(0.0);
+    let direct = -(1.0 - albedo) * planck * (-depth).exp_m1();
+    let expected = once_scattered(depth / EDGE_M, albedo, isotropic, planck) - direct;
+    let estimate = middle(&scene, &one(), &params, 20_000);
+    assert_near(&estimate, [expected; 3], "thin");
+    let noise = estimate.variance_of_mean[1].sqrt() / expected;
+    assert!(noise < 0.05, "{noise}");
 }
 
 #[test]
@@ -272,6 +305,59 @@ fn each_order_of_scattering_adds_light() {
         let error = (pair[0].variance_of_mean[1] + pair[1].variance_of_mean[1]).sqrt();
         let gain = pair[1].mean[1] - pair[0].mean[1];
         assert!(gain > CHANCE * error, "{gain} ± {error}: {orders:?}");
+    }
+}
+
+#[test]
+fn light_that_must_have_been_scattered_is_what_a_white_furnace_does_not_let_through() {
+    // Scattered or not, all light of a white furnace arrives; what is never scattered is e^{−τ} of it.
+    let depth = 1.5;
+    let scene = even(depth, 300.0);
+    for asymmetry in [-0.5, 0.0, 0.8] {
+        let params = Params {
+            scattering: Scattering::Albedo(1.0),
+            phase: hg(asymmetry),
+            min_bounces: 1,
+            environment: Environment::Uniform(1.0),
+            ..Params::default()
+        };
+        let scattered = middle(&scene, &one(), &params, 20_000);
+        let expected = -f64::exp_m1(-depth);
+        assert_near(&scattered, [expected; 3], &format!("g {asymmetry}"));
+        let error = scattered.variance_of_mean[1].sqrt();
+        assert!(error < 0.005, "noise {error}");
+
+        let never = Params {
+            max_bounces: 0,
+            ..params
+        };
+        assert_eq!(middle(&scene, &one(), &never, 100).mean, [0.0; 3]);
+    }
+}
+
+#[test]
+fn the_first_orders_of_scattering_and_all_others_are_all_of_it() {
+    let scene = even(2.0, 1700.0);
+    let orders = |min_bounces, max_bounces| {
+        let params = Params {
+            scattering: Scattering::Albedo(0.8),
+            phase: hg(0.3),
+            min_bounces,
+            max_bounces,
+            emission_points: 4.0,
+            ..Params::default()
+        };
+        middle(&scene, &one(), &params, 100_000)
+    };
+    let all = orders(0, u32::MAX);
+    for first in [0, 1, 2] {
+        let [few, many] = [orders(0, first), orders(first + 1, u32::MAX)];
+        let variance = [all, few, many].map(|it| it.variance_of_mean[1]);
+        let z = (few.mean[1] + many.mean[1] - all.mean[1]) / variance.iter().sum::<f64>().sqrt();
+        assert!(z.abs() < CHANCE, "up to {first}: z = {z:.1}");
+        // Each part is seen well above the noise, so that a lost order would show.
+        let lost = many.mean[1] / variance[2].sqrt();
+        assert!(lost > 10.0 * CHANCE, "up to {first}: {lost}");
     }
 }
 

@@ -7,9 +7,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sootlight::project::{Preset, Project};
-use sootlight::render::Plan;
 use sootlight::render::march::Marcher;
 use sootlight::render::null_collision::{Estimate, NullCollision, Params};
+use sootlight::render::{Plan, Switch};
 use sootlight::scene::{Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
 use sootlight::volume::{self, BuiltIn, Limits};
@@ -153,5 +153,7 @@ fn real(file: &Path) -> Scene {
     let volume = volume::open(&[file.to_path_buf()], &Limits::default()).unwrap();
     let mut project = Project::default();
     project.render.size = SIZE;
+    // Emission and absorption alone; what scatters is held to the reference in `scattering`.
+    project.effects.scattering = Switch::Off;
     project.job(&Arc::new(volume)).unwrap().scene(None)
 }

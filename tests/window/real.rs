@@ -10,7 +10,7 @@ use egui::accesskit::Role;
 use sootlight::project::Project;
 
 use super::export::read_png;
-use super::{App, Harness, Queryable, say, window_of, write_dense};
+use super::{App, Harness, Queryable, say, settle, window_of, write_dense};
 
 /// Size of the screen and of the window that fills it.
 const SCREEN: [f32; 2] = [1280.0, 800.0];
@@ -110,6 +110,8 @@ fn a_dropped_fire_is_changed_by_a_slider_and_exported() {
     let mut project = Project::default();
     project.volume.path = vec![file.clone()];
     let mut harness = window_of(project, SCREEN);
+    settle(&mut harness);
+    harness.run_steps(4);
     let slider = middle(&harness, Role::Slider, "Soot amount");
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::E);
     harness.run_steps(4);
@@ -130,7 +132,8 @@ fn a_dropped_fire_is_changed_by_a_slider_and_exported() {
         step mousemove {to} {y}
         step mouseup 1
         step key ctrl+e
-        sleep 0.5
+        # The window of the export finds its size and its place in some frames, which a busy machine draws slowly.
+        sleep 3
         step mousemove {} {}
         step click 1
         step key ctrl+a

@@ -1,33 +1,40 @@
 //! What burns, what its soot is like, and how hot it is.
 
+mod glow;
+
 use egui::Ui;
 
 use super::knob::{Choice, Knob, name, note};
-use super::{Command, section, short, unit};
+use super::{Command, Known, section, short, unit};
+use crate::physics::constants::METRES_PER_NM;
 use crate::physics::soot::{
     Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM, SootModel,
     volume_fraction_factor,
 };
-use crate::project::{
-    Control, FuelSettings, Job, PRESETS, Project, SootSettings, ranges, why_idle,
-};
-use crate::scene::{Fuel, Salt};
+use crate::project::{Control, Job, PRESETS, Project, SmokeSettings, SootSettings, ranges};
+use crate::scene::Fuel;
 
 /// What temperature offsets may be, K: more than any flame.
 const OFFSETS_K: [f64; 2] = [-1e5, 1e5];
 /// What factors from a file's numbers to kelvin may be.
 const SCALES_K: [f64; 2] = [-1e9, 1e9];
 
+/// By how much more spheres of a radius must absorb than small particles for it to be told.
+const TOLD_ABSORPTION: f64 = 0.045;
+/// Wavelength at which that is judged, nm: where the eye is most sensitive.
+const JUDGED_NM: f64 = 555.0;
+
 /// Draws the section.
 pub(super) fn show(
     ui: &mut Ui,
     project: &mut Project,
-    job: Option<&Job>,
+    known: Known<'_>,
     commands: &mut Vec<Command>,
 ) {
     section(ui, "Fire", true, |ui| {
         presets(ui, commands);
-        let idle = |control| job.and_then(|job| why_idle(job, control));
+        let job = known.job;
+        let idle = |control| known.idle(control);
         fuel(
             ui,
             project,
@@ -35,6 +42,22 @@ pub(super) fn show(
             [Control::Fuel, Control::SootModel].map(idle),
         );
         radius(ui, project, [Control::SootRadius, Control::Hold].map(idle));
+        Knob {
+            label: "Asymmetry",
+            unit: unit::COSINE,
+            slider: ranges::ASYMMETRY,
+            range: ranges::ASYMMETRY,
+            logarithmic: false,
+            default: 0.0,
+            tip: "Mean cosine of the angle by which soot and smoke scatter light: 0 evenly, 1 onwards, −1 back. Small \
+                  spheres scatter nearly evenly; clusters of them, as old soot is, onwards.",
+            idle: idle(Control::Asymmetry),
+        }
+        .show_optional(
+            ui,
+            &mut project.soot.asymmetry,
+            "automatic: that of spheres of the soot's radius",
+        );
         let default = SootSettings::default();
         Knob {
             label: "Soot amount",
@@ -58,7 +81,7 @@ pub(super) fn show(
                 "what still glows like soot is smoke: its amount is under Heat and smoke",
             );
         }
-        glow(
+        glow::show(
             ui,
             project,
             [Control::SaltAmount, Control::BlueGlow].map(idle),
@@ -67,9 +90,9 @@ pub(super) fn show(
 }
 
 /// Draws the section of what the file's other fields are worth.
-pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
+pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, known: Known<'_>) {
     section(ui, "Heat and smoke", true, |ui| {
-        heat(ui, project, job);
+        heat(ui, project, known);
         Knob {
             label: "Smoke amount",
             unit: unit::TIMES,
@@ -79,9 +102,21 @@ pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, job: Option<&Jo
             default: 1.0,
             tip: "Multiplies the smoke of the file: soot beside the flame's own. Where it is cold it only darkens, \
                   where it is hot it glows.",
-            idle: job.and_then(|job| why_idle(job, Control::SmokeAmount)),
+            idle: known.idle(Control::SmokeAmount),
         }
         .show(ui, &mut project.smoke.amount);
+        Knob {
+            label: "Smoke albedo",
+            unit: unit::PERCENT,
+            slider: ranges::ALBEDO,
+            range: ranges::ALBEDO,
+            logarithmic: false,
+            default: SmokeSettings::default().albedo,
+            tip: "How much of the light that smoke takes it scatters; the rest it swallows. Black smoke of a sooty fire \
+                  scatters about a fifth, white smoke nearly all.",
+            idle: known.idle(Control::SmokeAlbedo),
+        }
+        .show(ui, &mut project.smoke.albedo);
     });
 }
 
@@ -173,71 +208,6 @@ fn about_fuel(fuel: Fuel) -> String {
     format!("{}, {blue}. {}", soot_of(fuel), row.source)
 }
 
-/// Where a salt's light lies.
-fn about_salt(salt: Salt) -> String {
-    let row = salt.row();
-    let mut lines: Vec<i32> = row
-        .lines
-        .iter()
-        .map(|line| line.lambda_nm.round() as i32)
-        .collect();
-    lines.sort_unstable();
-    lines.dedup();
-    let lines: Vec<String> = lines.iter().map(i32::to_string).collect();
-    let bands = if row.molecules.is_empty() {
-        ""
-    } else {
-        ", and bands of its molecules"
-    };
-    match lines.as_slice() {
-        [] => "Fuel and air alone.".to_owned(),
-        lines => format!("Lines at {} nm{bands}.", lines.join(", ")),
-    }
-}
-
-/// What glows in the gas beside soot.
-fn glow(ui: &mut Ui, project: &mut Project, [idle_salt, idle_blue]: [Option<String>; 2]) {
-    let default = FuelSettings::default();
-    let tips: Vec<String> = Salt::all().map(about_salt).collect();
-    let options: Vec<(Salt, String, &str)> = Salt::all()
-        .zip(&tips)
-        .map(|(salt, tip)| (salt, salt.row().label.to_owned(), tip.as_str()))
-        .collect();
-    Choice {
-        label: "Salt",
-        options: &options,
-        tip: "A metal salt in the fuel. Its atoms and molecules glow in colours of their own where the gas is hot; soot \
-              outshines them, so fuels without soot show them best.",
-        default: default.salt,
-        idle: None,
-    }
-    .show(ui, &mut project.fuel.salt);
-    Knob {
-        label: "Salt amount",
-        unit: unit::PPM,
-        slider: [0.01, 10_000.0],
-        range: ranges::SALT_PPM,
-        logarithmic: true,
-        default: default.salt_ppm,
-        tip: "How many of a million molecules of the hot gas are the salt's metal. Lines of a thick vapour saturate: a \
-              hundred times the sodium gives ten times the light.",
-        idle: idle_salt,
-    }
-    .show(ui, &mut project.fuel.salt_ppm);
-    Knob {
-        label: "Blue glow",
-        unit: unit::TIMES,
-        slider: [0.01, 1000.0],
-        range: ranges::AMOUNT,
-        logarithmic: true,
-        default: default.blue_glow,
-        tip: "Multiplies the light that burning gas gives off by itself: CH, C₂ and CO₂*, the blue of a gas burner and \
-              at the foot of a candle's flame. Beside bright soot it is not seen.",
-        idle: idle_blue,
-    }
-    .show(ui, &mut project.fuel.blue_glow);
-}
-
 fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>; 2]) {
     Knob {
         label: "Soot radius",
@@ -248,7 +218,8 @@ fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>
         default: REFERENCE_RADIUS_NM,
         tip: "Radius of the soot's particles. What the fire looks like depends on what stays the same meanwhile: the \
               number of particles (there is more soot, with the cube of the radius: brighter, denser, less \
-              transparent) or the volume of soot (it absorbs and glows as before).",
+              transparent) or the volume of soot (it absorbs and glows as before). Larger particles scatter more, with \
+              the cube of the radius.",
         idle,
     }
     .show(ui, &mut project.soot.radius_nm);
@@ -273,12 +244,20 @@ fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>
         Hold::Number => format!("{} × the file's soot, by the radius", short(factor)),
         Hold::Volume => "as much soot as the file has".to_owned(),
     };
+    let law = project.fuel.name.soot_law(soot.model);
+    let more = law.absorption_left_out(JUDGED_NM, soot.radius_nm * METRES_PER_NM);
+    let words = if more > TOLD_ABSORPTION {
+        let percent = (100.0 * more).round();
+        format!("{words}; so large spheres would absorb {percent} % more than is computed")
+    } else {
+        words
+    };
     note(ui, &idle_hold.unwrap_or(words));
 }
 
 /// How the file's heat becomes kelvin. The numbers of the preset are the defaults.
-fn heat(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
-    let maps = job.and_then(|job| {
+fn heat(ui: &mut Ui, project: &mut Project, known: Known<'_>) {
+    let maps = known.job.and_then(|job| {
         Some((
             job.flame.maps.temperature.as_ref()?,
             job.proposed.temperature.as_ref()?,
@@ -300,7 +279,7 @@ fn heat(ui: &mut Ui, project: &mut Project, job: Option<&Job>) {
         tip: "Kelvin for one unit of the file's heat. Hotter soot is brighter and whiter: its light grows with about \
               the tenth power of its temperature. Solvers write heat without a unit, so this is the first number to \
               get right. What exceeds the field's bounds is cut off there, and said below.",
-        idle: job.and_then(|job| why_idle(job, Control::Heat)),
+        idle: known.idle(Control::Heat),
     }
     .show(ui, &mut scale);
     if changed {

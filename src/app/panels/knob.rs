@@ -37,12 +37,31 @@ impl Knob<'_> {
     /// Draws it. True if the value was changed; it stays within the range unless it came from outside.
     pub(super) fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
         let old = *value;
+        self.row(ui, value, &self.unit.words(self.default));
+        *value != old
+    }
+
+    /// Draws a number that need not be set; while it is not, the default is shown. A double click gives it up again.
+    pub(super) fn show_optional(&self, ui: &mut Ui, value: &mut Option<f64>, automatic: &str) {
+        let mut number = value.unwrap_or(self.default);
+        let old = number;
+        if self.row(ui, &mut number, automatic) {
+            *value = None;
+        } else if number != old {
+            *value = Some(number);
+        }
+        if value.is_none() {
+            note(ui, automatic);
+        }
+    }
+
+    /// The row, and words under it. True if a double click asked for the default, told in words.
+    fn row(&self, ui: &mut Ui, value: &mut f64, default: &str) -> bool {
         let tip = format!(
-            "{}\nType a number, with its unit if you like ({}). Double-click: back to {}.",
-            self.tip,
-            self.unit.example,
-            self.unit.words(self.default)
+            "{}\nType a number, with its unit if you like ({}). Double-click: back to {default}.",
+            self.tip, self.unit.example
         );
+        let mut reset = false;
         ui.horizontal(|ui| {
             let name = name(ui, self.label, &tip);
             ui.spacing_mut().slider_width =
@@ -55,13 +74,14 @@ impl Knob<'_> {
             // A double click on a slider is a press first, which moves it: both are one step of undo.
             let twice = slider.contains_pointer()
                 && ui.input(|input| input.pointer.button_double_clicked(PointerButton::Primary));
-            if name.double_clicked() || twice {
+            reset = name.double_clicked() || twice;
+            if reset {
                 *value = self.default;
             }
             self.field(ui, value, &name);
         });
         self.words(ui, *value);
-        *value != old
+        reset
     }
 
     /// The field. What was typed and not understood, or not allowed, is kept in words for [`Knob::words`].

@@ -3,6 +3,7 @@
 
 mod air;
 mod camera;
+mod effects;
 mod export;
 mod file;
 mod fire;
@@ -10,6 +11,7 @@ mod knob;
 mod legend;
 mod overlay;
 mod quality;
+mod stage;
 mod status;
 mod unit;
 mod view;
@@ -25,7 +27,9 @@ pub(super) use status::status;
 use super::Document;
 use super::exporter::Wish;
 use super::recent::Recent;
-use crate::project::{Mend, Preset};
+use crate::project::{Control, Job, Mend, Preset, why_idle};
+use crate::render::Facts;
+use crate::render::plan::Decision;
 use crate::volume::BuiltIn;
 
 /// What a panel cannot do itself.
@@ -85,6 +89,26 @@ pub(super) struct Panels {
     /// Whether the panel is out of sight, for the picture's sake.
     pub(super) hidden: bool,
     pub(super) export: export::ExportPanel,
+    stage: stage::StagePanel,
+}
+
+/// What is known of the picture that the controls change.
+#[derive(Clone, Copy)]
+struct Known<'a> {
+    /// The last valid job.
+    job: Option<&'a Job>,
+    /// What its plan decided; empty while that is not known.
+    decisions: &'a [Decision],
+    /// What was found out about it.
+    facts: Facts,
+}
+
+impl Known<'_> {
+    /// Why a control cannot change the picture, if it cannot.
+    fn idle(&self, control: Control) -> Option<String> {
+        self.job
+            .and_then(|job| why_idle(job, control, self.decisions))
+    }
 }
 
 impl Panels {
@@ -114,12 +138,21 @@ impl Panels {
                         self.file.show(ui, document, recent, commands);
                         let recognised = document.recognised().cloned();
                         let automatic_half = document.automatic_half_saturation_cd_m2();
+                        let decisions = document.decisions.clone();
+                        let facts = document.facts;
                         let (project, job) = document.parts();
-                        fire::show(ui, project, job, commands);
+                        let known = Known {
+                            job,
+                            decisions: &decisions,
+                            facts,
+                        };
+                        fire::show(ui, project, known, commands);
                         view::show(ui, project, automatic_half, commands);
                         quality::show(ui, project);
-                        fire::heat_and_smoke(ui, project, job);
-                        air::show(ui, project, job);
+                        fire::heat_and_smoke(ui, project, known);
+                        air::show(ui, project, known);
+                        self.stage.show(ui, project, known);
+                        effects::show(ui, &mut project.effects, known);
                         volume::show(ui, project, job, recognised.as_ref());
                         camera::show(ui, document);
                         file::findings(ui, document);

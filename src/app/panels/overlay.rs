@@ -6,6 +6,7 @@ use egui::{
 };
 
 use super::{Command, legend};
+use crate::app::opening::is_picture;
 use crate::app::theme::ERROR;
 use crate::app::{App, Closing};
 use crate::project::Darkness;
@@ -26,7 +27,16 @@ pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &m
     }
     let hovering = ui.input(|input| input.raw.hovered_files.clone());
     if !hovering.is_empty() {
-        drop_target(ui, &hovering);
+        let picture = match hovering.as_slice() {
+            [file] => file.path.as_deref().is_some_and(is_picture),
+            _ => false,
+        };
+        let words = if picture && app.document.volume().is_some() {
+            "Drop to put it behind the fire"
+        } else {
+            "Drop to open"
+        };
+        drop_target(ui, words, &hovering);
     }
 }
 
@@ -120,7 +130,7 @@ fn notes(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
         });
 }
 
-fn drop_target(ui: &Ui, hovering: &[egui::HoveredFile]) {
+fn drop_target(ui: &Ui, words: &str, hovering: &[egui::HoveredFile]) {
     let names: Vec<String> = hovering
         .iter()
         .filter_map(|file| {
@@ -140,7 +150,7 @@ fn drop_target(ui: &Ui, hovering: &[egui::HoveredFile]) {
     painter.rect_filled(window, 0.0, Color32::from_black_alpha(170));
     let stroke = Stroke::new(2.0, Color32::from_gray(220));
     painter.rect_stroke(window.shrink(12.0), 6.0, stroke, StrokeKind::Inside);
-    let lines = std::iter::once("Drop to open").chain(names.iter().map(String::as_str));
+    let lines = std::iter::once(words).chain(names.iter().map(String::as_str));
     let middle = window.center() - vec2(0.0, 0.5 * LINE * names.len() as f32);
     for (i, line) in lines.enumerate() {
         let (at, font) = (

@@ -10,6 +10,9 @@ use crate::scene::{Interpolation, WavelengthSet};
 /// Rays for each pixel that are offered.
 const RAYS: [u32; 5] = [1, 2, 4, 8, 16];
 
+/// Orders of scattering that are offered.
+const ORDERS: [u32; 5] = [1, 2, 4, 16, 64];
+
 /// Draws the section.
 pub(super) fn show(ui: &mut Ui, project: &mut Project) {
     section(ui, "Quality", true, |ui| {
@@ -108,7 +111,31 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
             render.samples_per_pixel = (rays != rays_default).then_some(rays);
         }
         between_voxels(ui, &mut render.interpolation);
+        orders(ui, &mut render.scattering_orders);
     });
+}
+
+/// How often light may be scattered.
+fn orders(ui: &mut Ui, orders: &mut u32) {
+    let words = |orders: u32| match orders {
+        1 => "Once, without noise".to_owned(),
+        orders => format!("Up to {orders} times"),
+    };
+    let mut options: Vec<(u32, String, &str)> =
+        ORDERS.map(|orders| (orders, words(orders), "")).to_vec();
+    if !ORDERS.contains(orders) {
+        options.push((*orders, words(*orders), ""));
+    }
+    Choice {
+        label: "Scatterings",
+        options: &options,
+        tip: "How often light is followed from soot to soot where scattering is computed (Effects says whether, and how much \
+              more than one adds). Beyond the first they are added by path tracing, with some noise: more rays a pixel \
+              take it away.",
+        default: 1,
+        idle: None,
+    }
+    .show(ui, orders);
 }
 
 /// How values between voxels are formed. Not a part of the quality's presets: more is not always nearer to what was

@@ -128,6 +128,47 @@ pub(super) const LUMINANCE: Unit = Unit {
     example: "20000 cd/m²",
 };
 
+/// Pressures, held in Pa.
+pub(super) const HECTOPASCAL: Unit = Unit {
+    name: "hPa",
+    one: None,
+    shown: 0.01,
+    decimals: 2,
+    also: &[
+        ("pa", |n| 0.01 * n),
+        ("kpa", |n| 10.0 * n),
+        ("mbar", same),
+        ("bar", |n| 1e3 * n),
+        // The standard atmosphere.
+        ("atm", |n| 1013.25 * n),
+    ],
+    example: "1013.25 hPa or 101325 Pa",
+};
+
+/// Cosines.
+pub(super) const COSINE: Unit = Unit {
+    name: "",
+    one: None,
+    shown: 1.0,
+    decimals: 3,
+    also: &[],
+    example: "0.6",
+};
+
+/// Lengths of what stands around the fire, held in m.
+pub(super) const METRES: Unit = Unit {
+    name: "m",
+    one: None,
+    shown: 1.0,
+    decimals: 3,
+    also: &[
+        ("cm", |n| 0.01 * n),
+        ("mm", |n| 1e-3 * n),
+        ("km", |n| 1e3 * n),
+    ],
+    example: "0.35 m or 35 cm",
+};
+
 /// Kelvin for one unit of a file.
 pub(super) const KELVIN_PER_UNIT: Unit = Unit {
     name: "K/unit",
@@ -184,7 +225,8 @@ impl Unit {
 
     /// A value in words, with its unit.
     pub(super) fn words(&self, value: f64) -> String {
-        format!("{} {}", self.number(value), self.beside(value))
+        let words = format!("{} {}", self.number(value), self.beside(value));
+        words.trim_end().to_owned()
     }
 
     /// The unit as it stands beside a value.
@@ -260,6 +302,11 @@ mod tests {
             (KELVIN, "27 °C", 300.15),
             (KELVIN, "80.6 °F", 300.15),
             (MILLIMETRES, "1 cm", 0.01),
+            (METRES, "35 cm", 0.35),
+            (HECTOPASCAL, "1013.25", 101_325.0),
+            (HECTOPASCAL, "101325 Pa", 101_325.0),
+            (HECTOPASCAL, "1 atm", 101_325.0),
+            (COSINE, "-0.25", -0.25),
             (VOXELS, " .5 ", 0.5),
         ] {
             let parsed = unit.parse(typed);
@@ -284,6 +331,8 @@ mod tests {
         assert_eq!(TIMES.number(0.0), "0");
         assert_eq!(KELVIN.words(300.0), "300 K");
         assert_eq!(KELVIN.words(7.0003e8), "7.00e8 K");
+        assert_eq!(HECTOPASCAL.words(101_325.0), "1013.25 hPa");
+        assert_eq!(COSINE.words(0.5), "0.5");
         assert_eq!(VOXELS.words(1.0), "1 voxel");
         assert_eq!(VOXELS.words(1.5), "1.5 voxels");
     }

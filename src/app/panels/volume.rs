@@ -124,7 +124,7 @@ fn field(ui: &mut Ui, project: &mut Project, job: &Job, kind: FieldKind) {
         tip,
         default: None,
         idle: (kind == FieldKind::Flame)
-            .then(|| why_idle(job, Control::FlameField))
+            .then(|| why_idle(job, Control::FlameField, &[]))
             .flatten(),
     }
     .show(ui, set);

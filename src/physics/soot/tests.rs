@@ -57,7 +57,7 @@ fn absorption_and_scattering_agree_with_fifty_digit_arithmetic() {
             "σ_a",
         );
         assert_close(
-            soot.scattering_ratio(lambda_nm, radius_m),
+            soot.small_particle_scattering_ratio(lambda_nm, radius_m),
             row.number("sigma_s_over_sigma_a"),
             "σ_s/σ_a",
         );
@@ -74,7 +74,7 @@ fn the_rayleigh_limit_keeps_the_distance_from_mie_that_the_page_states() {
     let soot = law(SootModel::DalzellSarofim, SootIndex::Propane);
     for row in Table::parse(MIE_CSV).rows() {
         let (lambda_nm, radius_nm) = (row.number("lambda_nm"), row.number("R_nm"));
-        let ratio = soot.scattering_ratio(lambda_nm, radius_nm * METRES_PER_NM);
+        let ratio = soot.small_particle_scattering_ratio(lambda_nm, radius_nm * METRES_PER_NM);
         let albedo = ratio / (1.0 + ratio);
         assert_close(albedo, row.number("albedo_rayleigh"), "albedo");
 
@@ -92,6 +92,26 @@ fn the_rayleigh_limit_keeps_the_distance_from_mie_that_the_page_states() {
         assert!(x > 0.49 || (low < 0.115 && high.abs() < 0.01), "x = {x}");
         assert!((0.0..0.2).contains(&low), "x = {x}: σ_a low by {low}");
     }
+}
+
+#[test]
+fn scattering_is_that_of_mies_spheres_beside_the_absorption_of_small_ones() {
+    let soot = law(SootModel::DalzellSarofim, SootIndex::Propane);
+    for row in Table::parse(MIE_CSV).rows() {
+        let (lambda_nm, radius_m) = (row.number("lambda_nm"), row.number("R_nm") * METRES_PER_NM);
+        let expected = row.number("Q_sca_mie") / row.number("Q_abs_rayleigh");
+        let got = soot.scattering_ratio(lambda_nm, radius_m);
+        assert!((got / expected - 1.0).abs() < 1e-12, "{got} {expected}");
+        let excess = row.number("abs_mie_over_rayleigh") - 1.0;
+        let left_out = soot.absorption_left_out(lambda_nm, radius_m);
+        assert!((left_out - excess).abs() < 1e-12, "{left_out} {excess}");
+        let asymmetry = soot.asymmetry(lambda_nm, radius_m);
+        assert!((asymmetry / row.number("g_mie") - 1.0).abs() < 1e-12);
+    }
+    // Below the series' range the limit stands, without a step.
+    let radius_m = |x: f64| x * 550.0 * METRES_PER_NM / (2.0 * PI);
+    let ratio = |x: f64| soot.scattering_ratio(550.0, radius_m(x)) / x.powi(3);
+    assert!((ratio(0.999e-4) / ratio(1.001e-4) - 1.0).abs() < 1e-7);
 }
 
 #[test]
@@ -125,8 +145,8 @@ fn case_25_the_scattering_ratio_of_the_smallest_particles_survives_single_precis
     let soot = SootLaw::default();
     let ratio = soot.scattering_ratio(550.0, 5e-9) as f32;
     assert!(ratio.is_normal());
-    let eightfold = soot.scattering_ratio(550.0, 10e-9) / soot.scattering_ratio(550.0, 5e-9);
-    assert!((eightfold - 8.0).abs() < 1e-13);
+    let small = |radius_m| soot.small_particle_scattering_ratio(550.0, radius_m);
+    assert!((small(10e-9) / small(5e-9) - 8.0).abs() < 1e-13);
 }
 
 #[test]

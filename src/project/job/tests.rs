@@ -48,6 +48,19 @@ fn only_what_changes_the_light_asks_for_a_picture() {
         (&[], "effects.chemiluminescence=on"),
         (&["volume.temperature.grid="], "air.temperature_k=350"),
         (&[], "render.interpolation=tricubic"),
+        (&[], "soot.asymmetry=0.3"),
+        (&[], "effects.scattering=off"),
+        (&["soot.hold=volume"], "soot.radius_nm=30"),
+        (&[], "stage.ground=true"),
+        (&["stage.ground=true"], "stage.ground_colour=[0, 0, 0]"),
+        (&["stage.ground=true"], "air.humidity=0.9"),
+        (&["stage.backdrop=checker"], "air.pressure_pa=50000"),
+        (&["stage.backdrop=checker"], "air.temperature_k=350"),
+        (&["stage.backdrop=checker"], "air.saturation=davis"),
+        (&["stage.backdrop=checker"], "air.refraction_gain=2"),
+        (&["stage.backdrop=checker"], "effects.dispersion=on"),
+        (&["stage.backdrop=checker"], "stage.backdrop_square_m=0.01"),
+        (&["effects.refraction=on"], "air.co2_ppm=0"),
     ] {
         assert!(asks_anew(before, change), "{before:?} then {change}");
     }
@@ -64,6 +77,19 @@ fn only_what_changes_the_light_asks_for_a_picture() {
         // The file says how hot the gas is.
         (&[], "air.temperature_k=350"),
         (&[], "air.humidity=0.9"),
+        (&[], "air.refraction_gain=2"),
+        // There is no smoke.
+        (&[], "smoke.albedo=0.5"),
+        (
+            &["soot.hold=volume", "effects.scattering=off"],
+            "soot.radius_nm=30",
+        ),
+        (&[], "stage.ground_colour=[0, 0, 0]"),
+        (&["stage.backdrop=gradient"], "stage.backdrop_square_m=0.01"),
+        (
+            &["stage.ground=true", "effects.refraction=off"],
+            "air.humidity=0.9",
+        ),
     ] {
         assert!(!asks_anew(before, change), "{before:?} then {change}");
     }

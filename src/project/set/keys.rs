@@ -23,6 +23,7 @@ const GRID: &str = "a grid's name, or \"\" for none";
 const RAW_FACTOR: &str = "a number, physical units for one unit of the file";
 const PHYSICAL: &str = "a number in physical units";
 const SWITCH: &str = "auto, on or off";
+const COLOUR: &str = "linear red, green and blue, each 0 to 1, such as [0.25, 0.22, 0.2]";
 const POINT: &str = "three numbers in m, such as [0, -2, 0.5]";
 
 /// Everything that a scene file can hold, in its order.
@@ -142,24 +143,97 @@ pub const KEYS: &[Key] = &[
         "what stays when the radius changes",
     ),
     key(
+        "soot.asymmetry",
+        "a number, -0.99 to 0.99",
+        "mean cosine of the scattering by soot and smoke; that of spheres of the radius if not set",
+    ),
+    key(
         "smoke.amount",
         "a number, 0 to 10000",
         "multiplies the smoke field",
     ),
     key(
+        "smoke.albedo",
+        "a number, 0 to 0.99",
+        "share of what smoke takes from light that it scatters",
+    ),
+    key(
         "air.temperature_k",
         "a number of K, 200 to 400",
-        "temperature where the volume has none",
+        "temperature where the volume has none, and around the fire",
+    ),
+    key(
+        "air.pressure_pa",
+        "a number of Pa, 1000 to 1000000",
+        "pressure; bends light, which shows only before a backdrop or a stage",
     ),
     key(
         "air.humidity",
         "a number, 0 to 1",
-        "relative humidity; bends light, which shows only before a backdrop",
+        "relative humidity; bends light, which shows only before a backdrop or a stage",
+    ),
+    key(
+        "air.saturation",
+        "huang or davis",
+        "whose saturation pressure says how much water the humidity is",
     ),
     key(
         "air.co2_ppm",
         "a number of ppm, 0 to 2000",
-        "carbon dioxide; bends light, which shows only before a backdrop",
+        "carbon dioxide; bends light, which shows only before a backdrop or a stage",
+    ),
+    key(
+        "air.refraction_gain",
+        "a number, 1 to 20",
+        "multiplies how strongly hot gas bends light; 1 is nature's",
+    ),
+    key(
+        "stage.ground",
+        "true or false",
+        "a level ground that the fire's light falls on",
+    ),
+    key(
+        "stage.ground_height_m",
+        "a number of m, -1000000 to 1000000",
+        "z of the ground; the lower end of the fire if not set",
+    ),
+    key("stage.ground_colour", COLOUR, "colour of the ground"),
+    key(
+        "stage.spheres",
+        "lists of four numbers of m: middle and radius, such as [[0.5, 0, 0.1, 0.1]]",
+        "spheres that the fire's light falls on",
+    ),
+    key("stage.sphere_colour", COLOUR, "colour of the spheres"),
+    key(
+        "stage.logs",
+        "lists of seven numbers of m: both ends and radius, such as [[-0.3, 0, 0.05, 0.3, 0, 0.05, 0.04]]",
+        "logs that the fire's light falls on",
+    ),
+    key("stage.log_colour", COLOUR, "colour of the logs"),
+    key(
+        "stage.backdrop",
+        "none, checker, gradient or picture",
+        "a shining screen behind everything, which bent light moves",
+    ),
+    key(
+        "stage.backdrop_distance_m",
+        "a number of m, 0.000001 to 1000000",
+        "behind the camera's target; twice the fire's largest side if not set",
+    ),
+    key(
+        "stage.backdrop_square_m",
+        "a number of m, 0.000001 to 1000000",
+        "edge of a square of the checker; a twelfth of the frame's height there if not set",
+    ),
+    key(
+        "stage.backdrop_luminance_cd_m2",
+        "a number of cd/m², 0 to 1000000000",
+        "luminance of the backdrop's white",
+    ),
+    key(
+        "stage.backdrop_picture",
+        "the path of a PNG file",
+        "the picture on the backdrop",
     ),
     key(
         "effects.lines",
@@ -170,6 +244,26 @@ pub const KEYS: &[Key] = &[
         "effects.chemiluminescence",
         SWITCH,
         "the blue light of the reaction zone; auto: where there is a flame field and soot does not outshine it",
+    ),
+    key(
+        "effects.scattering",
+        SWITCH,
+        "the fire's own light, scattered once by soot and smoke; auto: where it can be seen",
+    ),
+    key(
+        "effects.refraction",
+        SWITCH,
+        "light bent by hot gas; auto: where a backdrop or a stage shows it",
+    ),
+    key(
+        "effects.dispersion",
+        SWITCH,
+        "colours bent differently; auto: never, for it is a fiftieth of the bending",
+    ),
+    key(
+        "effects.fire_light",
+        SWITCH,
+        "the fire as a light for the stage; auto: where there is a stage",
     ),
     key(
         "camera.eye",
@@ -222,6 +316,11 @@ pub const KEYS: &[Key] = &[
         "1 is the pixel's centre; overrides quality",
     ),
     key(
+        "render.scattering_orders",
+        "a whole number, 1 to 64",
+        "how often light may be scattered; more than once by path tracing, with some noise",
+    ),
+    key(
         "view.exposure_ev",
         "a number of stops, -20 to 20",
         "above the automatic exposure",
@@ -254,26 +353,4 @@ pub const KEYS: &[Key] = &[
 ];
 
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use super::*;
-    use crate::physics::soot::SootModel;
-    use crate::scene::{Fuel, Interpolation, Salt};
-
-    #[test]
-    fn what_a_key_expects_names_every_row_of_its_table() {
-        let expects = |name: &str| KEYS.iter().find(|key| key.name == name).unwrap().expects;
-        let is_named = |key: &str, name: &str| {
-            let mut words = expects(key).split([',', ' ']);
-            assert!(words.any(|word| word == name), "{key} does not name {name}");
-        };
-        Fuel::all().for_each(|fuel| is_named("fuel.name", fuel.name()));
-        Salt::all().for_each(|salt| is_named("fuel.salt", salt.name()));
-        for model in SootModel::ALL {
-            is_named("soot.model", model.name());
-        }
-        for way in Interpolation::ALL {
-            is_named("render.interpolation", way.name());
-        }
-    }
-}
+mod tests;

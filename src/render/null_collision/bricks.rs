@@ -24,23 +24,28 @@ pub(super) struct Bounds {
 pub(super) fn bounds(medium: &Medium, optics: &Optics) -> Vec<Bounds> {
     let of_brick = |(slot, samples): (usize, &[[f32; 2]])| {
         let start = (0.0_f64, 0.0_f64);
-        let (soot, glow) = samples
-            .iter()
-            .enumerate()
-            .fold(start, |(soot, glow), (i, sample)| {
-                let [volume_fraction, kelvin] = sample.map(f64::from);
-                let flame = medium.flame.get(slot * BRICK_SAMPLES + i);
-                let place = Place {
-                    soot: volume_fraction,
-                    kelvin,
-                    flame: flame.copied().unwrap_or(0.0).into(),
-                };
-                (soot.max(volume_fraction), glow.max(optics.glow(&place)))
-            });
-        Bounds {
-            extinction: optics.extinction(soot),
-            glow,
-        }
+        let (extinction, glow) =
+            samples
+                .iter()
+                .enumerate()
+                .fold(start, |(extinction, glow), (i, sample)| {
+                    let [volume_fraction, kelvin] = sample.map(f64::from);
+                    let beside = |field: &[f32]| {
+                        let value = field.get(slot * BRICK_SAMPLES + i);
+                        f64::from(value.copied().unwrap_or(0.0))
+                    };
+                    let place = Place {
+                        soot: volume_fraction,
+                        kelvin,
+                        flame: beside(&medium.flame),
+                        smoke: beside(&medium.smoke),
+                    };
+                    (
+                        extinction.max(optics.extinction(&place)),
+                        glow.max(optics.glow(&place)),
+                    )
+                });
+        Bounds { extinction, glow }
     };
     let own: Vec<Bounds> = medium
         .samples
@@ -128,14 +133,15 @@ mod tests {
             for i in 0..500 {
                 let t = range[0] + (range[1] - range[0]) * (f64::from(i) + 0.5) / 500.0;
                 // Within rounding of a border a point may belong to either side.
-                let soot = medium.sample(local.at(t))[0];
+                let [soot, kelvin] = medium.sample(local.at(t));
+                let place = Place { soot, kelvin, flame: 0.0, smoke: 0.0 };
                 if soot > 1e-18 {
                     let held = found.iter().any(|s| s.from - 1e-9 <= t && t <= s.to + 1e-9);
                     prop_assert!(held, "t = {t} is in no stretch: {found:?}");
                     let inside = found.iter().filter(|s| s.from + 1e-9 <= t && t <= s.to - 1e-9);
                     for stretch in inside {
                         let bound = bounds[stretch.slot as usize].extinction;
-                        prop_assert!(optics.extinction(soot) <= bound * (1.0 + 1e-12), "t = {t}: above its bound");
+                        prop_assert!(optics.extinction(&place) <= bound * (1.0 + 1e-12), "t = {t}: above its bound");
                     }
                 }
             }

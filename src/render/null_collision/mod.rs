@@ -5,8 +5,8 @@
 //! The whole equation of transfer, dL/ds = −σ_t L + j + σ_s ∫ L Φ dω, with emission, absorption and scattering of any
 //! order, for the same flame, camera and wavelengths as the march. There is no step: the only error is noise, whose
 //! variance comes with every estimate. Of what glows in the gas beside soot, the radicals are in it; a salt's lines and
-//! bands are not: those are held to sums over their profiles. Objects that stand in the fire's light are not part of
-//! the scene, so no path meets a surface.
+//! bands are not: those are held to sums over their profiles. Ground, spheres and logs of the stage stop light and send it
+//! back evenly, each wavelength by its reflectance; the backdrop is not in it.
 //!
 //! # How
 //!
@@ -15,8 +15,8 @@
 //! is left, so that emission is integrated along all of the flight and not only where light happens to be absorbed;
 //! then the weight loses the share σ_a/μ, and a random number decides whether the path scatters or goes on as if
 //! nothing had been there. Any rate gives the right mean (Novák et al. 2014), so it is raised where the brick may glow:
-//! a flight spends [`Params::emission_points`] collisions more in proportion to the glow of what it crosses. Bricks
-//! in which nothing shows are jumped over.
+//! a flight spends [`Params::emission_points`] collisions more in proportion to the glow of what it crosses, and
+//! [`Params::scattering_points`] in proportion to its extinction. Bricks in which nothing shows are jumped over.
 //!
 //! *Wavelengths.* All of them travel on one path. The decisions are made with the optics of one, chosen evenly, and
 //! each wavelength's light is divided by the mean over all choices of the probability of what happened: the balance
@@ -31,8 +31,8 @@
 //!
 //! # Reading
 //!
-//! [`Params`] say what is simulated, `optics` what the medium is at a point, `bricks` where collisions may be, `path`
-//! follows one path, [`Estimate`] is the mean of many.
+//! [`Params`] say what is simulated, `optics` what the medium is at a point, `bricks` where collisions may be, `surfaces`
+//! what a path does at the stage, `path` follows one path, [`Estimate`] is the mean of many.
 
 use rayon::prelude::*;
 
@@ -47,6 +47,7 @@ mod estimate;
 mod optics;
 mod params;
 mod path;
+mod surfaces;
 
 pub use estimate::Estimate;
 pub use params::{Environment, Params, Scattering};
@@ -67,7 +68,7 @@ impl<'a> NullCollision<'a> {
         Self {
             scene,
             wavelengths,
-            tracer: Tracer::new(&scene.flame, wavelengths, params),
+            tracer: Tracer::new(scene, wavelengths, params),
         }
     }
 

@@ -1,6 +1,7 @@
 //! What the medium is at a point, for each wavelength.
 
 use crate::physics::blackbody;
+use crate::physics::phase::HenyeyGreenstein;
 use crate::scene::Flame;
 use crate::scene::glow::Source;
 use crate::spectral::Wavelengths;
@@ -26,6 +27,8 @@ pub(super) struct Place {
     pub(super) kelvin: f64,
     /// The flame field, 0 to 1.
     pub(super) flame: f64,
+    /// Which part of the soot is smoke, where the two scatter differently.
+    pub(super) smoke: f64,
 }
 
 /// The laws of one wavelength: one of the set's, or that at which a part of the radicals' light is carried.
@@ -36,8 +39,16 @@ struct Node {
     radicals: Option<f64>,
     /// Absorption for each unit of the medium's volume fraction, 1/m.
     absorption: f64,
-    /// Scattering likewise.
-    scattering: f64,
+    /// Scattering likewise, where it is soot and where it is smoke.
+    scattering: [f64; 2],
+    phase: HenyeyGreenstein,
+}
+
+impl Node {
+    /// Scattering coefficient at a point, 1/m.
+    fn scattering(&self, place: &Place) -> f64 {
+        self.scattering[0] * (place.soot - place.smoke) + self.scattering[1] * place.smoke
+    }
 }
 
 /// The laws at all wavelengths.
@@ -56,16 +67,21 @@ impl Optics {
     pub(super) fn new(flame: &Flame, wavelengths: &Wavelengths, params: &Params) -> Self {
         let node = |lambda_nm: f64, radicals: Option<f64>| {
             let soot = flame.absorption_per_sample(lambda_nm);
-            let [absorption, scattering] = match params.scattering {
-                Scattering::Off => [soot, 0.0],
+            let phase = match params.scattering {
+                Scattering::Flame => HenyeyGreenstein::new(flame.asymmetry(lambda_nm)),
+                _ => None,
+            };
+            let (absorption, scattering) = match params.scattering {
+                Scattering::Off => (soot, [0.0; 2]),
+                Scattering::Flame => (soot, flame.scattering_per_sample(lambda_nm)),
                 Scattering::Soot { radius_nm } => {
                     let radius_m = radius_nm * 1e-9;
                     let ratio = flame.soot().scattering_ratio(lambda_nm, radius_m);
-                    [soot, soot * ratio]
+                    (soot, [soot * ratio; 2])
                 }
                 Scattering::Albedo(albedo) => {
                     let albedo = albedo.clamp(0.0, 1.0);
-                    [soot * (1.0 - albedo), soot * albedo]
+                    (soot * (1.0 - albedo), [soot * albedo; 2])
                 }
             };
             Node {
@@ -73,6 +89,7 @@ impl Optics {
                 radicals,
                 absorption,
                 scattering,
+                phase: phase.unwrap_or(params.phase),
             }
         };
         let luminous = wavelengths.xyz.iter().map(|weight| weight[1].abs());
@@ -109,7 +126,8 @@ impl Optics {
                 lambda_nm: 555.0,
                 radicals: None,
                 absorption: 1.0,
-                scattering: 0.0,
+                scattering: [0.0; 2],
+                phase: HenyeyGreenstein::ISOTROPIC,
             }],
             colours: Vec::new(),
             brightest: 0,
@@ -124,7 +142,7 @@ impl Optics {
         let sigma_a = node.absorption * place.soot;
         Local {
             sigma_a,
-            sigma_s: node.scattering * place.soot,
+            sigma_s: node.scattering(place),
             emission: match node.radicals {
                 Some(emission) => emission * place.flame,
                 None => sigma_a * blackbody::spectral_radiance(node.lambda_nm, place.kelvin),
@@ -142,6 +160,11 @@ impl Optics {
         xyz
     }
 
+    /// A wavelength, nm.
+    pub(super) fn lambda_nm(&self, node: usize) -> f64 {
+        self.nodes[node].lambda_nm
+    }
+
     /// How many wavelengths there are.
     pub(super) fn len(&self) -> usize {
         self.nodes.len()
@@ -149,17 +172,21 @@ impl Optics {
 
     /// Whether any light is scattered.
     pub(super) fn scatters(&self) -> bool {
-        self.nodes.iter().any(|node| node.scattering > 0.0)
+        let mut scattering = self.nodes.iter().flat_map(|node| node.scattering);
+        scattering.any(|scattering| scattering > 0.0)
     }
 
-    /// The largest extinction σ_a + σ_s of any wavelength for a volume fraction, 1/m.
-    pub(super) fn extinction(&self, soot: f64) -> f64 {
-        let strongest = self
-            .nodes
+    /// Into which directions light of a wavelength, given by its index, is scattered.
+    pub(super) fn phase(&self, node: usize) -> HenyeyGreenstein {
+        self.nodes[node].phase
+    }
+
+    /// The largest extinction σ_a + σ_s of any wavelength at a point, 1/m.
+    pub(super) fn extinction(&self, place: &Place) -> f64 {
+        self.nodes
             .iter()
-            .map(|node| node.absorption + node.scattering)
-            .fold(0.0, f64::max);
-        strongest * soot
+            .map(|node| node.absorption * place.soot + node.scattering(place))
+            .fold(0.0, f64::max)
     }
 
     /// How bright a point is in comparison with others, W m⁻³ sr⁻¹: the soot by its emission where the eye sees best.

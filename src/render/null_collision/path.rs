@@ -4,30 +4,39 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use crate::colour::reflectance::Reflectance;
 use crate::math::Ray;
 use crate::math::random::Stream;
 use crate::physics::phase::HenyeyGreenstein;
 use crate::render::walk::Stretch;
-use crate::scene::{Flame, Medium};
+use crate::scene::{Medium, Scene};
 use crate::spectral::Wavelengths;
 
 use super::bricks::{self, Bounds};
 use super::optics::{Local, Optics, Place};
 use super::params::Params;
+use super::surfaces::{self, Surfaces};
 
 /// A path whose heaviest weight is below this plays roulette for going on.
 const ROULETTE: f64 = 1e-3;
+
+/// Scatterings for each flight that [`Params::scattering_points`] see to: e^{−1/2} of all flights stay unscattered.
+const SCATTERED: f64 = 0.5;
 
 /// Follows paths through one flame.
 pub(super) struct Tracer<'a> {
     medium: &'a Medium,
     optics: Optics,
     bounds: Vec<Bounds>,
-    phase: HenyeyGreenstein,
     max_bounces: u32,
+    min_bounces: u32,
     /// Spectral radiance of the surroundings at each wavelength.
     environment: Vec<f64>,
     emission_points: f64,
+    scattering_points: f64,
+    /// Least probability of scattering at a collision where there is any.
+    least_odds: f64,
+    surfaces: Surfaces<'a>,
 }
 
 /// How a flight between two scatterings ends.
@@ -41,20 +50,29 @@ enum Flight {
 }
 
 impl<'a> Tracer<'a> {
-    pub(super) fn new(flame: &'a Flame, wavelengths: &Wavelengths, params: &Params) -> Self {
+    pub(super) fn new(scene: &'a Scene, wavelengths: &Wavelengths, params: &Params) -> Self {
+        let flame = &scene.flame;
         let optics = Optics::new(flame, wavelengths, params);
         let shine = |&nm: &f64| params.environment.radiance(nm);
         Self {
             medium: flame.medium(),
             bounds: bricks::bounds(flame.medium(), &optics),
-            phase: params.phase,
             max_bounces: if optics.scatters() {
                 params.max_bounces
             } else {
                 0
             },
+            min_bounces: params.min_bounces,
             environment: wavelengths.nodes_nm.iter().map(shine).collect(),
             emission_points: params.emission_points.max(0.0),
+            scattering_points: params.scattering_points.max(0.0),
+            least_odds: if params.scattering_points > 0.0 {
+                let points = params.emission_points.max(0.0) + params.scattering_points;
+                SCATTERED / points.max(1.0)
+            } else {
+                0.0
+            },
+            surfaces: Surfaces::new(&scene.stage, params.max_reflections),
             optics,
         }
     }
@@ -71,37 +89,61 @@ impl<'a> Tracer<'a> {
         let mut light = Light {
             weights: Weights::new(count),
             hero: ((random.uniform() * count as f64) as usize).min(count.saturating_sub(1)),
+            counts: self.min_bounces == 0,
             radiance,
         };
         let mut ray = *ray;
         let mut bounces = 0;
+        let mut reflections = 0;
         loop {
             let may_scatter = bounces < self.max_bounces;
-            match self.fly(&ray, may_scatter, &mut light, random, stretches) {
+            let wall = self.surfaces.hit(&ray);
+            let limit = wall.map_or(f64::INFINITY, |wall| wall.distance_m);
+            match self.fly(&ray, limit, may_scatter, &mut light, random, stretches) {
                 Flight::Ended => return,
                 Flight::Escaped => {
-                    let share = light.weights.share;
-                    for (n, shine) in self.environment.iter().enumerate() {
-                        light.radiance[n] += light.weights.value[n] * share * shine;
+                    if let Some(wall) = wall {
+                        if !self.surfaces.may_reflect(reflections) {
+                            return;
+                        }
+                        reflections += 1;
+                        let reflectance = Reflectance::of(wall.colour);
+                        for (n, value) in light.weights.value.iter_mut().enumerate() {
+                            *value *= reflectance.at(self.optics.lambda_nm(n));
+                        }
+                        ray = surfaces::reflected(&wall, random);
+                        continue;
+                    }
+                    if light.counts {
+                        let share = light.weights.share;
+                        for (n, shine) in self.environment.iter().enumerate() {
+                            light.radiance[n] += light.weights.value[n] * share * shine;
+                        }
                     }
                     return;
                 }
                 Flight::Scattered(distance) => {
                     bounces += 1;
+                    light.counts = bounces >= self.min_bounces;
+                    let phase = self.optics.phase(light.hero);
+                    let (direction, cosine) = turned(ray.direction, phase, random);
+                    light.weights.turn(&self.optics, light.hero, cosine);
                     light.weights.normalise();
                     ray = Ray {
                         origin: ray.at(distance),
-                        direction: turned(ray.direction, self.phase, random),
+                        direction,
                     };
                 }
             }
         }
     }
 
-    /// From the ray's origin to the next scattering or out, taking up the emission on the way.
+    /// From the ray's origin to the next scattering, or out, or to a limit along the ray (m), taking up the emission on
+    /// the way.
     fn fly(
         &self,
         ray: &Ray,
+        limit: f64,
         may_scatter: bool,
         light: &mut Light<'_>,
         random: &mut Stream,
@@ -111,17 +153,25 @@ impl<'a> Tracer<'a> {
             return Flight::Escaped;
         };
         bricks::stretches(self.medium, &local, range, stretches);
-        let points_per_glow = self.points_per_glow(stretches);
+        let glow = |bounds: &Bounds| bounds.glow;
+        let points_per_glow = self.points_per(self.emission_points, glow, stretches);
+        let points_per_depth = if may_scatter {
+            let extinction = |bounds: &Bounds| bounds.extinction;
+            self.points_per(self.scattering_points, extinction, stretches)
+        } else {
+            0.0
+        };
         for stretch in &*stretches {
             let bounds = self.bounds[stretch.slot as usize];
-            let rate = bounds.extinction + points_per_glow * bounds.glow;
+            let rate = bounds.extinction * (1.0 + points_per_depth) + points_per_glow * bounds.glow;
             if rate <= 0.0 {
                 continue;
             }
             let mut t = stretch.from;
+            let end = stretch.to.min(limit);
             loop {
                 t += random.exponential() / rate;
-                if t >= stretch.to {
+                if t >= end {
                     break;
                 }
                 let place = self.place(local.at(t));
@@ -129,7 +179,8 @@ impl<'a> Tracer<'a> {
                     continue;
                 }
                 let scattered = if may_scatter {
-                    light.collide(&self.optics, &place, rate, random.uniform())
+                    let decision = random.uniform();
+                    light.collide(&self.optics, &place, rate, self.least_odds, decision)
                 } else {
                     light.pass(&self.optics, &place, rate);
                     false
@@ -152,6 +203,7 @@ impl<'a> Tracer<'a> {
             soot,
             kelvin,
             flame: self.medium.flame(position),
+            smoke: self.medium.smoke(position),
         }
     }
 
@@ -165,14 +217,14 @@ impl<'a> Tracer<'a> {
         self.optics.len()
     }
 
-    /// By how much a unit of glow raises the rate of collisions, so that the flight has its emission points; 0 where
-    /// nothing glows.
-    fn points_per_glow(&self, stretches: &[Stretch]) -> f64 {
-        let glow: f64 = stretches
+    /// By how much a unit of `what` raises the rate of collisions, so that the flight has so many points more; 0 where
+    /// there is nothing of it.
+    fn points_per(&self, points: f64, what: impl Fn(&Bounds) -> f64, stretches: &[Stretch]) -> f64 {
+        let all: f64 = stretches
             .iter()
-            .map(|stretch| self.bounds[stretch.slot as usize].glow * (stretch.to - stretch.from))
+            .map(|stretch| what(&self.bounds[stretch.slot as usize]) * (stretch.to - stretch.from))
             .sum();
-        let points = self.emission_points / glow;
+        let points = points / all;
         if points.is_finite() { points } else { 0.0 }
     }
 }
@@ -182,19 +234,30 @@ struct Light<'a> {
     weights: Weights,
     /// The wavelength that decides.
     hero: usize,
+    /// Whether what is met now has been scattered often enough on its way to the eye.
+    counts: bool,
     radiance: &'a mut [f64],
 }
 
 impl Light<'_> {
     /// A collision at which light may scatter; `decision` is a number in 0..1. Returns whether it does.
-    fn collide(&mut self, optics: &Optics, place: &Place, rate: f64, decision: f64) -> bool {
-        let scattered = decision < odds(&optics.local(self.hero, place), rate);
+    fn collide(
+        &mut self,
+        optics: &Optics,
+        place: &Place,
+        rate: f64,
+        least_odds: f64,
+        decision: f64,
+    ) -> bool {
+        let scattered = decision < odds(&optics.local(self.hero, place), rate, least_odds);
         let share = self.weights.share;
         for n in 0..optics.len() {
             let local = optics.local(n, place);
             let (value, density) = (&mut self.weights.value[n], &mut self.weights.density[n]);
-            self.radiance[n] += *value * share * local.emission / rate;
-            let odds = odds(&local, rate);
+            if self.counts {
+                self.radiance[n] += *value * share * local.emission / rate;
+            }
+            let odds = odds(&local, rate, least_odds);
             if scattered {
                 *value *= local.sigma_s / rate;
                 *density *= odds;
@@ -213,18 +276,21 @@ impl Light<'_> {
         for n in 0..optics.len() {
             let local = optics.local(n, place);
             let value = &mut self.weights.value[n];
-            self.radiance[n] += *value * share * local.emission / rate;
+            if self.counts {
+                self.radiance[n] += *value * share * local.emission / rate;
+            }
             *value *= (rate - local.sigma_a - local.sigma_s) / rate;
         }
     }
 }
 
-/// Probability that a wavelength in charge scatters at a collision that does not absorb. A rate below the extinction
-/// would make the rest negative: the weights stay right, so the probability only has to be one.
-fn odds(local: &Local, rate: f64) -> f64 {
+/// Probability that a wavelength in charge scatters at a collision that does not absorb, where it does at all no less
+/// than `least`. A rate below the extinction would make the rest negative: the weights stay right, so the probability only
+/// has to be one.
+fn odds(local: &Local, rate: f64, least: f64) -> f64 {
     let null = (rate - local.sigma_a - local.sigma_s).abs();
     if local.sigma_s > 0.0 {
-        local.sigma_s / (local.sigma_s + null)
+        (local.sigma_s / (local.sigma_s + null)).max(least)
     } else {
         0.0
     }
@@ -251,6 +317,22 @@ impl Weights {
     /// Finds the share after a change of the densities.
     fn weigh(&mut self) {
         self.share = self.density.len() as f64 / self.density.iter().sum::<f64>();
+    }
+
+    /// A turn by an angle of this cosine, drawn from the phase function of the wavelength in charge: each wavelength's
+    /// value and density take their own phase function's value, over that one's.
+    fn turn(&mut self, optics: &Optics, hero: usize, cosine: f64) {
+        let drawn = optics.phase(hero);
+        for n in 0..self.value.len() {
+            let own = optics.phase(n);
+            // Where all are one, nothing is rounded.
+            if own != drawn {
+                let ratio = own.value(cosine) / drawn.value(cosine);
+                self.value[n] *= ratio;
+                self.density[n] *= ratio;
+            }
+        }
+        self.weigh();
     }
 
     /// Takes out the common factor, so that long paths do not underflow.
@@ -281,13 +363,14 @@ impl Weights {
     }
 }
 
-/// A direction after scattering.
-fn turned(direction: DVec3, phase: HenyeyGreenstein, random: &mut Stream) -> DVec3 {
+/// A direction after scattering, and the cosine of the turn.
+fn turned(direction: DVec3, phase: HenyeyGreenstein, random: &mut Stream) -> (DVec3, f64) {
     let cosine = phase.sample_cosine(random.uniform());
     let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
     let (up, across) = (TAU * random.uniform()).sin_cos();
     let (u, v) = direction.any_orthonormal_pair();
-    (cosine * direction + sine * (across * u + up * v)).normalize()
+    let after = cosine * direction + sine * (across * u + up * v);
+    (after.normalize(), cosine)
 }
 
 #[cfg(test)]
@@ -304,7 +387,7 @@ mod tests {
             let count = 20_000;
             let mut mean = DVec3::ZERO;
             for _ in 0..count {
-                let after = turned(before, phase, &mut random);
+                let (after, _) = turned(before, phase, &mut random);
                 assert!((after.length() - 1.0).abs() < 1e-14);
                 mean += after / f64::from(count);
             }

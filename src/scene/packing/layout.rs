@@ -40,14 +40,13 @@ impl<'a> Layout<'a> {
         let source = |map: &'a Option<FieldMap>, amount: f64| {
             Source::new(volume, map.as_ref(), reference, amount).filter(Source::has_data)
         };
-        let absorbers: Vec<Source<'a>> = [
-            (&maps.soot, fields.amounts[0]),
-            (&maps.smoke, fields.amounts[1]),
-        ]
-        .into_iter()
-        .filter(|&(_, amount)| amount > 0.0)
-        .filter_map(|(map, amount)| source(map, amount))
-        .collect();
+        let smoke = absorber(fields, maps.smoke.as_ref(), fields.amounts[1], reference);
+        let smoke_apart = fields.smoke_apart && smoke.is_some();
+        let absorbers: Vec<Source<'a>> =
+            absorber(fields, maps.soot.as_ref(), fields.amounts[0], reference)
+                .into_iter()
+                .chain(smoke)
+                .collect();
         // What glows in the gas, and from which value of its field on.
         let burning = fields.gas.burning.and_then(|burning| match burning {
             Burning::Field => Some((source(&maps.flame, 1.0)?, 0.0)),
@@ -57,12 +56,25 @@ impl<'a> Layout<'a> {
             .gas
             .hot_above_k
             .and_then(|kelvin| Some((source(&maps.temperature, 1.0)?, kelvin)));
+        let bending = fields
+            .gas
+            .bends_above_k
+            .and_then(|kelvin| Some((source(&maps.temperature, 1.0)?, kelvin)));
         let gases: Vec<(Source<'a>, f64)> = burning.into_iter().chain(hot).collect();
 
-        let absorbing = absorbers.iter().map(|source| (source, 0.0));
-        let shown: Vec<(&Source<'_>, f64)> = absorbing
-            .chain(gases.iter().map(|(source, threshold)| (source, *threshold)))
-            .collect();
+        let seen = |(source, above)| Shown {
+            source,
+            above,
+            margin: 0,
+        };
+        let absorbing = absorbers.iter().map(|source| seen((source, 0.0)));
+        let shining = gases.iter().map(|(source, above)| seen((source, *above)));
+        // Where light is bent the difference between neighbours counts, a voxel further.
+        let bending = bending.iter().map(|(source, above)| Shown {
+            margin: 1,
+            ..seen((source, *above))
+        });
+        let shown: Vec<Shown<'_>> = absorbing.chain(shining).chain(bending).collect();
         if shown.is_empty() {
             return Ok(None);
         }
@@ -78,7 +90,8 @@ impl<'a> Layout<'a> {
             Interpolation::Nearest | Interpolation::Trilinear => 0,
         };
         let occupied = occupied_bricks(&shown, origin, bricks, beside);
-        let size = size_of::<Sample>() + fields.gas.burning.map_or(0, |_| size_of::<f32>());
+        let beside = usize::from(fields.gas.burning.is_some()) + usize::from(smoke_apart);
+        let size = size_of::<Sample>() + beside * size_of::<f32>();
         let bytes = (occupied.len() * BRICK_SAMPLES * size) as u64;
         if bytes > limits.max_bytes {
             return Err(PackingError::TooLarge {
@@ -98,11 +111,29 @@ impl<'a> Layout<'a> {
     }
 }
 
+/// A field that shows, or bends light, where it is above a value; and how many voxels beside that count.
+struct Shown<'a> {
+    source: &'a Source<'a>,
+    above: f64,
+    margin: i32,
+}
+
+/// Soot or smoke as it is packed, times its amount; `None` if there is none.
+pub(super) fn absorber<'a>(
+    fields: &Fields<'a>,
+    map: Option<&'a FieldMap>,
+    amount: f64,
+    reference: &Grid,
+) -> Option<Source<'a>> {
+    let source = Source::new(fields.volume, map, reference, amount);
+    source.filter(|source| amount > 0.0 && source.has_data())
+}
+
 /// The box of everything that may show, min inside, max outside.
-fn hull(shown: &[(&Source<'_>, f64)], limits: &Limits) -> Result<[IVec3; 2], PackingError> {
+fn hull(shown: &[Shown<'_>], limits: &Limits) -> Result<[IVec3; 2], PackingError> {
     // In f64, where grids that lie far apart do not overflow.
-    let hull = shown.iter().fold(Aabb::EMPTY, |hull, (source, _)| {
-        hull.union(&source.bounds())
+    let hull = shown.iter().fold(Aabb::EMPTY, |hull, shown| {
+        hull.union(&shown.source.bounds())
     });
     let across = hull.size() / BRICK as f64 + 3.0;
     let widest = 2_f64.powi(29);
@@ -118,20 +149,21 @@ fn hull(shown: &[(&Source<'_>, f64)], limits: &Limits) -> Result<[IVec3; 2], Pac
 }
 
 /// Bricks that anything may reach with a sample, and those up to `beside` bricks off, in the order of the table.
-fn occupied_bricks(
-    shown: &[(&Source<'_>, f64)],
-    origin: IVec3,
-    bricks: UVec3,
-    beside: i32,
-) -> Vec<UVec3> {
+fn occupied_bricks(shown: &[Shown<'_>], origin: IVec3, bricks: UVec3, beside: i32) -> Vec<UVec3> {
     let count = bricks.as_u64vec3().element_product() as usize;
     let mut marks = vec![false; count];
     let edge = IVec3::splat(BRICK as i32);
     let (width, height) = (bricks.x as usize, bricks.y as usize);
-    for (source, threshold) in shown {
-        source.for_each_above(*threshold, |voxels| {
+    for &Shown {
+        source,
+        above,
+        margin,
+    } in shown
+    {
+        source.for_each_above(above, |voxels| {
             // A brick at 8b holds samples 8b to 8b + 8, so a voxel on a border is in two of them.
-            let (min, max) = (voxels.min.as_ivec3(), voxels.max.as_ivec3());
+            let min = voxels.min.as_ivec3() - margin;
+            let max = voxels.max.as_ivec3() + margin;
             let first = (min - 1 - origin).div_euclid(edge) - beside;
             let last = (max - origin).div_euclid(edge) + beside;
             let range = [first.max(IVec3::ZERO), last.min(bricks.as_ivec3() - 1)];

@@ -33,6 +33,7 @@ fn packed(volume: &Volume, maps: &FieldMaps, limits: &Limits) -> Result<Medium, 
         amounts: [1.0, 1.0],
         ambient_k: 300.0,
         gas: GasFields::default(),
+        smoke_apart: false,
         interpolation: Interpolation::default(),
     };
     assert_eq!(
@@ -172,9 +173,11 @@ fn hot_air_is_refused_before_it_is_allocated_and_its_flame_field_counts() {
             maps: &maps,
             amounts: [1.0, 0.0],
             ambient_k: 300.0,
+            smoke_apart: false,
             gas: GasFields {
                 burning,
                 hot_above_k,
+                bends_above_k: None,
             },
             interpolation: Interpolation::Tricubic,
         };
@@ -192,4 +195,72 @@ fn hot_air_is_refused_before_it_is_allocated_and_its_flame_field_counts() {
         2 * burning,
         "8 bytes for a sample, and 4 more for its flame"
     );
+}
+
+#[test]
+fn smoke_is_told_apart_only_where_it_is_asked_for() {
+    // Soot in one half of the lattice, smoke in the other and between: a brick's border lies within both.
+    let grid = |name: &str, inside: fn(i32) -> bool, value: f32| {
+        let of_voxel = move |voxel: IVec3| if inside(voxel.x) { value } else { 0.0 };
+        let dims = IVec3::new(40, 12, 12);
+        let world = DAffine3::IDENTITY;
+        Grid::from_fn(name, dims, world, Border::Background, 0.0, of_voxel)
+    };
+    let grids = vec![
+        grid("soot", |x| x < 22, 1e-6),
+        grid("smoke", |x| x > 17, 4e-6),
+    ];
+    let volume = Volume::from_grids(grids, "halves");
+    let pack = |maps: &FieldMaps, amounts: [f64; 2], smoke_apart: bool, max_bytes: u64| {
+        let fields = Fields {
+            volume: &volume,
+            maps,
+            amounts,
+            ambient_k: 300.0,
+            gas: GasFields::default(),
+            smoke_apart,
+            interpolation: Interpolation::default(),
+        };
+        let limits = Limits {
+            max_bytes,
+            ..Limits::default()
+        };
+        fields.pack(&DAffine3::IDENTITY, &limits)
+    };
+    let both = maps(0.0);
+    let plain = pack(&both, [1.0, 0.5], false, u64::MAX).unwrap();
+    let apart = pack(&both, [1.0, 0.5], true, u64::MAX).unwrap();
+    assert!(plain.smoke.is_empty());
+    assert_eq!(plain.samples, apart.samples);
+    assert_eq!(apart.smoke.len(), apart.samples.len());
+    for (x, soot, smoke) in [(3.0, 1e-6, 0.0), (20.0, 3e-6, 2e-6), (33.0, 2e-6, 2e-6)] {
+        let at = apart
+            .lattice_from_world
+            .transform_point3(DVec3::new(x, 6.0, 6.0));
+        assert!((apart.sample(at)[0] - soot).abs() < 1e-12);
+        assert!((apart.smoke(at) - smoke).abs() < 1e-12);
+        assert_eq!(plain.smoke(at), 0.0);
+    }
+
+    // Smoke alone is all that absorbs, bit for bit; without an amount there is none.
+    let smoke_alone = FieldMaps {
+        soot: None,
+        ..both.clone()
+    };
+    let alone = pack(&smoke_alone, [0.0, 0.3], true, u64::MAX).unwrap();
+    let fractions: Vec<f32> = alone.samples.iter().map(|sample| sample[0]).collect();
+    assert_eq!(alone.smoke, fractions);
+    assert!(
+        pack(&both, [1.0, 0.0], true, u64::MAX)
+            .unwrap()
+            .smoke
+            .is_empty()
+    );
+
+    // Its four bytes beside a sample's eight are in the limit.
+    let bytes = |smoke_apart: bool| match pack(&both, [1.0, 0.5], smoke_apart, 1) {
+        Err(PackingError::TooLarge { bytes, .. }) => bytes,
+        _ => panic!("a byte is enough"),
+    };
+    assert_eq!(3 * bytes(false), 2 * bytes(true));
 }

@@ -1,0 +1,116 @@
+//! The laws of one scene at one set of wavelengths, baked into tables for the march.
+//!
+//! The laws are f64; the tables are f32 with the units chosen so that nothing under- or overflows (wavelengths
+//! in nm, Planck's constants per nm).
+
+use super::glow::GlowTable;
+use crate::physics::blackbody;
+use crate::scene::Scene;
+use crate::scene::glow::Feature;
+use crate::spectral::Wavelengths;
+
+/// One wavelength of the march.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// Absorption coefficient for each unit of the medium's volume fraction, 1/m.
+    pub absorption: f32,
+    /// Scattering coefficient for each unit of it that is soot, and that is smoke, 1/m; zero where scattering is off.
+    pub scattering: [f32; 2],
+    /// Mean cosine of the scattering.
+    pub asymmetry: f32,
+    /// 2hc²/λ⁵, W m⁻² sr⁻¹ nm⁻¹: Planck's radiance without its exponential.
+    pub planck_scale: f32,
+    /// hc/(λk), K: Planck's exponent times temperature.
+    pub planck_exponent_k: f32,
+}
+
+impl Node {
+    /// What is taken from light for each unit of the volume fraction, 1/m: by all of it, and by how much more by smoke.
+    #[inline(always)]
+    pub(super) fn extinction(&self) -> [f32; 2] {
+        let [soot, smoke] = self.scattering;
+        [self.absorption + soot, smoke - soot]
+    }
+}
+
+/// The laws of one scene at given wavelengths.
+#[derive(Debug, Clone)]
+pub struct Tables {
+    /// Nodes and what they weigh in XYZ.
+    pub wavelengths: Wavelengths,
+    /// The march's view of the same nodes.
+    pub nodes: Vec<Node>,
+    /// What glows in the gas beside soot.
+    pub glow: GlowTable,
+    /// The same as features, thermal ones first, in the order in which the march carries them.
+    pub features: Vec<Feature>,
+    /// Picture size in pixels.
+    pub size: [u32; 2],
+    /// Once the medium's column ∫ f_v ds (m) exceeds this, no wavelength lets anything behind be seen.
+    pub opaque_column_m: f32,
+    /// Whether any light is scattered.
+    pub scatters: bool,
+}
+
+/// Most wavelengths of any set.
+pub const MAX_NODES: usize = 64;
+
+/// Optical depth at which a ray stops: what is behind keeps e⁻²⁴ = 4e-11 of its radiance, less than an f32's last digit
+/// unless it is a thousand times as bright as what is in front.
+const OPAQUE_DEPTH: f64 = 24.0;
+
+impl Tables {
+    /// Bakes the laws for given wavelengths, at most [`MAX_NODES`] of them, with these features of the gas, and with or
+    /// without scattering.
+    pub(super) fn new(
+        scene: &Scene,
+        size: [u32; 2],
+        wavelengths: Wavelengths,
+        features: Vec<Feature>,
+        scatters: bool,
+    ) -> Self {
+        debug_assert!(wavelengths.len() <= MAX_NODES);
+        let flame = &scene.flame;
+        let scattering = |nm: f64| {
+            if scatters {
+                flame.scattering_per_sample(nm)
+            } else {
+                [0.0; 2]
+            }
+        };
+        let nodes: Vec<Node> = wavelengths
+            .nodes_nm
+            .iter()
+            .map(|&nm| Node {
+                absorption: flame.absorption_per_sample(nm) as f32,
+                scattering: scattering(nm).map(|s| s as f32),
+                asymmetry: flame.asymmetry(nm) as f32,
+                planck_scale: (blackbody::FIRST_RADIATION_CONSTANT / nm.powi(5)) as f32,
+                planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
+            })
+            .collect();
+        let glow = GlowTable::new(flame, &features, &scattering);
+        let clearest = nodes
+            .iter()
+            .map(|node| node.absorption)
+            .chain(glow.absorptions())
+            .reduce(f32::min);
+        // Where nothing is carried, nothing can be hidden.
+        let opaque_column_m =
+            clearest.map_or(f64::INFINITY, |clearest| OPAQUE_DEPTH / f64::from(clearest)) as f32;
+        Self {
+            scatters: nodes.iter().any(|node| node.scattering != [0.0; 2]),
+            wavelengths,
+            nodes,
+            glow,
+            features,
+            size,
+            opaque_column_m,
+        }
+    }
+
+    /// How many numbers light is carried in: nodes, then features.
+    pub fn channels(&self) -> usize {
+        self.nodes.len() + self.features.len()
+    }
+}
