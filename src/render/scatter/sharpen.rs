@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use super::Gathered;
+use super::gathered::Gathered;
 use crate::math::lanes::{self, Kernel};
 use crate::render::cells::{Cells, Chunk, WIDE};
 use crate::render::own_light::own_light;

@@ -9,6 +9,7 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, IVec3};
+use rayon::prelude::*;
 
 use super::*;
 use crate::math::Ray;
