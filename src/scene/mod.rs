@@ -11,6 +11,7 @@ mod columns;
 pub mod curves;
 mod fit;
 pub mod flame;
+mod flame_params;
 pub mod fuel;
 pub mod glow;
 pub mod interpolation;
