@@ -23,7 +23,7 @@ pub use picture::Picture;
 
 use crate::project::Job;
 use crate::render::plan::Decision;
-use crate::render::{Cancel, Facts, Flaws, Pass, Plan, Tile, pass, render_pass};
+use crate::render::{Cancel, Effects, Facts, Flaws, Pass, Plan, Tile, pass, render_pass};
 use crate::scene::Scene;
 
 /// Which submit something belongs to.
@@ -83,6 +83,8 @@ pub struct Packed {
     pub scene: Scene,
     /// Size of its picture in pixels.
     pub size: [u32; 2],
+    /// Which effects were asked for.
+    pub effects: Effects,
 }
 
 /// Renders in the background. Dropping it cancels and joins.
@@ -262,6 +264,7 @@ impl Shared {
             generation,
             scene: scene.clone(),
             size: job.settings.size,
+            effects: job.settings.effects,
         });
         // What may be the last of an old volume is freed outside the lock.
         drop(replaced);

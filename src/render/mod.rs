@@ -48,7 +48,7 @@ pub use film::{Film, Pixel, Tile};
 pub use level::Level;
 pub use pass::{Pass, render_pass};
 pub use plan::{Facts, Plan};
-pub use probe::Probe;
+pub use probe::{Probe, Prober};
 
 /// How accurate a picture is, in concrete numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]

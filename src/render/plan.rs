@@ -97,9 +97,24 @@ impl Plan {
     /// Bakes the tables for given wavelengths, at most [`MAX_NODES`](super::tables::MAX_NODES) of them: those of a
     /// measurement, say. All that glows in the gas is in it.
     pub fn with_wavelengths(scene: &Scene, size: [u32; 2], wavelengths: Wavelengths) -> Self {
+        Self::measuring(scene, size, wavelengths, Effects::AUTO)
+    }
+
+    /// The same with effects switched as a person has them.
+    pub(super) fn measuring(
+        scene: &Scene,
+        size: [u32; 2],
+        wavelengths: Wavelengths,
+        effects: Effects,
+    ) -> Self {
         let features = scene.flame.glow().features();
-        let decisions = decisions(scene, &features, Effects::AUTO);
+        let decisions = decisions(scene, &features, effects);
         Self::of(scene, size, wavelengths, features, decisions)
+    }
+
+    /// Whether the fields of a level are worked out, or there are none to work out.
+    pub(super) fn has_fields(&self, level: Level) -> bool {
+        self.wanted == Wanted::default() || self.fields[level as usize].get().is_some()
     }
 
     fn of(

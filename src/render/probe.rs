@@ -1,8 +1,9 @@
 //! The light of one point of the picture, wavelength by wavelength.
 
-use super::march::Marcher;
+use super::march::{Marcher, Seen};
 use super::plan::Plan;
-use super::{Cancel, Level};
+use super::tables::Tables;
+use super::{Cancel, Effects, Level};
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::physics::blackbody;
 use crate::scene::camera::CameraError;
@@ -27,22 +28,64 @@ pub struct Probe {
     black_body_k: Option<f64>,
 }
 
+/// Reads points of one picture. Cheap to make; what scattered, thrown and bent light need is worked out once for all
+/// points.
+#[derive(Debug)]
+pub struct Prober {
+    scene: Scene,
+    plan: Plan,
+}
+
+impl Prober {
+    /// A reader of a scene's picture of `size` pixels, with these effects.
+    pub fn new(scene: &Scene, size: [u32; 2], effects: Effects) -> Self {
+        let wavelengths = WAVELENGTHS.wavelengths(scene.flame.soot());
+        Self {
+            plan: Plan::measuring(scene, size, wavelengths, effects),
+            scene: scene.clone(),
+        }
+    }
+
+    /// Whether [`Prober::read`] answers in less than a millisecond.
+    pub fn is_ready(&self) -> bool {
+        self.plan.has_fields(Level::Coarse)
+    }
+
+    /// Works out what all points need, in the calling thread's rayon pool: tenths of a second where light is scattered or
+    /// falls on a stage.
+    pub fn prepare(&self) {
+        // Nothing cancels it: there is an answer.
+        let _ = self
+            .plan
+            .fields(&self.scene, Level::Coarse, &Cancel::never());
+    }
+
+    /// Marches one ray through a point in pixels from the upper left corner.
+    ///
+    /// # Errors
+    /// The camera cannot see.
+    pub fn read(&self, point: [f64; 2]) -> Result<Probe, CameraError> {
+        let never = Cancel::never();
+        let marcher = match self.plan.fields(&self.scene, Level::Coarse, &never) {
+            Some(fields) => Marcher::with_fields(&self.scene, &self.plan, fields, STEP_VOXELS)?,
+            None => Marcher::new(&self.scene, &self.plan, STEP_VOXELS)?,
+        };
+        Ok(Probe::seen(&marcher.radiance(point), &self.plan.tables))
+    }
+}
+
 impl Probe {
-    /// Marches one ray through a point of a picture of `size` pixels; `point` is in pixels from the upper left corner.
+    /// One point alone of a picture of `size` pixels with every effect that can be seen; `point` is in pixels from the
+    /// upper left corner.
     ///
     /// # Errors
     /// The camera cannot see.
     pub fn new(scene: &Scene, size: [u32; 2], point: [f64; 2]) -> Result<Self, CameraError> {
-        let wavelengths = WAVELENGTHS.wavelengths(scene.flame.soot());
-        let plan = Plan::with_wavelengths(scene, size, wavelengths);
-        let never = Cancel::never();
-        let fields = plan.fields(scene, Level::Coarse, &never);
-        let marcher = match fields {
-            Some(fields) => Marcher::with_fields(scene, &plan, fields, STEP_VOXELS)?,
-            None => Marcher::new(scene, &plan, STEP_VOXELS)?,
-        };
-        let seen = marcher.radiance(point);
-        let tables = &plan.tables;
+        Prober::new(scene, size, Effects::AUTO).read(point)
+    }
+
+    /// The probe of what a ray has seen.
+    fn seen(seen: &Seen, tables: &Tables) -> Self {
         let lines = tables.glow.xyz_of(seen.features.iter().copied());
         let beside = std::array::from_fn(|c| lines[c] + seen.backdrop[c]);
         let mut probe = Self::of(&tables.wavelengths, &seen.radiance, beside);
@@ -54,7 +97,7 @@ impl Probe {
                 .light_in([*nm - half, *nm + half], &seen.features)
                 / BAND_NM;
         }
-        Ok(probe)
+        probe
     }
 
     /// The probe of a radiance at these nodes, with X, Y and Z of what shines beside it.

@@ -205,3 +205,33 @@ fn a_small_window_keeps_the_plots_within_reach() {
     let window = egui::Rect::from_min_max(pos2(0.0, 0.0), pos2(480.0, 320.0));
     assert!(window.contains_rect(tab), "{tab:?}");
 }
+
+#[test]
+fn a_pixel_of_a_lit_stage_is_read_once_its_light_is_worked_out() {
+    let mut project = Project::default();
+    project.stage.ground = true;
+    let mut harness = window_of(project, SIZE);
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    // Below the fire, where nothing but ground is.
+    let at = on_picture(&harness, 0.8, 0.97);
+    point_at(&mut harness, at);
+    let begun = std::time::Instant::now();
+    while harness.query_by_label_contains("Pixel ").is_none() {
+        assert!(begun.elapsed().as_secs() < 60, "nothing was read");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        harness.run_steps(1);
+    }
+    let words = label_with(&harness, "cd/m²");
+    let film = harness.state().picture().film();
+    let [x, y] =
+        [(0.8, 0), (0.97, 1)].map(|(share, axis)| (share * film.size()[axis] as f32) as u32);
+    let shown = 683.0 * f64::from(film.pixel(x, y).unwrap().xyz[1]);
+    assert!(shown > 0.0);
+    let read: f64 = words
+        .split_whitespace()
+        .find_map(|word| word.replace(',', "").parse().ok())
+        .unwrap();
+    // The pixel's light is worked out as coarsely as a first pass.
+    assert!((read / shown - 1.0).abs() < 0.25, "{words}, {shown}");
+}

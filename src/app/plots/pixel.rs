@@ -1,5 +1,7 @@
 //! The light of one pixel: of the one under the pointer, or of one that was clicked.
 
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
 use egui::{Color32, Context, LayerId, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
 use egui_plot::LineStyle;
 
@@ -9,8 +11,8 @@ use crate::app::panels::short;
 use crate::app::theme::IDLE;
 use crate::colour::display::{BakedView, View};
 use crate::engine::{Engine, Generation, Packed};
-use crate::render::Probe;
 use crate::render::develop::can_be_seen;
+use crate::render::{Probe, Prober};
 
 /// Height of the chart in points.
 const HEIGHT: f32 = 210.0;
@@ -25,6 +27,10 @@ pub(super) struct PixelPlot {
     /// Whether it stays where it is, whatever the pointer does.
     kept: bool,
     reading: Option<Reading>,
+    /// What reads the pixels of one picture.
+    prober: Option<(Generation, Prober)>,
+    /// The next one, while a thread works out what it needs.
+    coming: Option<Receiver<(Generation, Prober)>>,
 }
 
 /// What was read, and of what.
@@ -38,7 +44,7 @@ impl PixelPlot {
     /// Reads the pixel if it or its picture is another, and draws what was read.
     pub(super) fn show(&mut self, ui: &mut Ui, engine: &Engine, view: &View, place: &PicturePlace) {
         self.follow(place);
-        self.read(engine);
+        self.read(engine, ui.ctx());
         let reading = self.reading.as_ref();
         self.kept &= !heading(ui, reading, self.kept);
         let probe = reading.map(|reading| &reading.probe);
@@ -94,15 +100,11 @@ impl PixelPlot {
     }
 
     /// Marches a ray if there is something new to read; what was read last stands until then.
-    fn read(&mut self, engine: &Engine) {
+    fn read(&mut self, engine: &Engine, ctx: &Context) {
         let Some((share, packed)) = self.share.zip(engine.scene()) else {
             return;
         };
-        let Packed {
-            generation,
-            scene,
-            size,
-        } = packed;
+        let (generation, size) = (packed.generation, packed.size);
         let pixel = [0, 1].map(|axis| {
             let at = share[axis] * f64::from(size[axis]);
             (at as u32).min(size[axis] - 1)
@@ -114,14 +116,56 @@ impl PixelPlot {
         if known {
             return;
         }
+        self.fetch(&packed, ctx);
         let centre = pixel.map(|at| f64::from(at) + 0.5);
-        if let Ok(probe) = Probe::new(&scene, size, centre) {
+        let prober = self.prober.as_ref().filter(|(of, _)| *of == generation);
+        if let Some(Ok(probe)) = prober.map(|(_, prober)| prober.read(centre)) {
             self.reading = Some(Reading {
                 generation,
                 pixel,
                 probe,
             });
         }
+    }
+
+    /// Sees to it that there is a reader of the present picture, now or soon: what takes its time is worked out on a
+    /// thread of its own, one at a time.
+    fn fetch(&mut self, packed: &Packed, ctx: &Context) {
+        if let Some(coming) = &self.coming {
+            match coming.try_recv() {
+                Ok(made) => (self.prober, self.coming) = (Some(made), None),
+                Err(TryRecvError::Empty) => return,
+                Err(TryRecvError::Disconnected) => self.coming = None,
+            }
+        }
+        let generation = packed.generation;
+        if self
+            .prober
+            .as_ref()
+            .is_some_and(|(of, _)| *of == generation)
+        {
+            return;
+        }
+        let prober = Prober::new(&packed.scene, packed.size, packed.effects);
+        if prober.is_ready() {
+            self.prober = Some((generation, prober));
+            return;
+        }
+        let (sender, receiver) = channel();
+        let ctx = ctx.clone();
+        let work = move || {
+            // One core: the picture has the others.
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+            if let Ok(pool) = pool {
+                pool.install(|| prober.prepare());
+                // A window that was closed meanwhile wants nothing any more.
+                let _ = sender.send((generation, prober));
+                ctx.request_repaint();
+            }
+        };
+        let thread = std::thread::Builder::new().name("sootlight-spectrum".into());
+        // Without a thread the reading before stands.
+        self.coming = thread.spawn(work).is_ok().then_some(receiver);
     }
 }
 
