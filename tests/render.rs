@@ -221,3 +221,46 @@ fn a_probe_sees_the_pixel_that_the_picture_has() {
     }
     assert!((2..6).contains(&lit), "{lit} points are lit");
 }
+
+#[test]
+fn what_nothing_comes_through_hides_the_backdrop_and_ground_is_opaque() {
+    use sootlight::project::Project;
+    use sootlight::render::march::Marcher;
+    let marched = |sets: &[&str]| {
+        let mut project = Project::default();
+        project.set_all(sets.iter().copied()).unwrap();
+        project.render.size = [64, 48];
+        let job = project.job(&common::torch()).unwrap();
+        let scene = job.scene(None);
+        let plan = Plan::new(&scene, &job.settings);
+        let marcher = Marcher::new(&scene, &plan, 1.0).unwrap();
+        // Through the body of the fire, and beside it above and below.
+        let points = [[32.0, 30.0], [5.0, 5.0], [5.0, 47.0]];
+        let (pixels, _) = marcher.march(&std::array::from_fn(|lane| points.get(lane).copied()));
+        pixels
+    };
+    let dense = ["soot.amount=10000", "effects.refraction=off"];
+    let alone = marched(&dense);
+    let bright = [
+        dense[0],
+        dense[1],
+        "stage.backdrop=gradient",
+        "stage.backdrop_luminance_cd_m2=1e6",
+    ];
+    let before = marched(&bright);
+    for c in 0..3 {
+        let (alone, before) = (alone[0].xyz[c], before[0].xyz[c]);
+        // The backdrop's 1464 W m⁻² sr⁻¹ would show as 0.1 % of itself.
+        assert!(
+            (before - alone).abs() < 1e-3 * alone.abs().max(1e-3),
+            "{c}: {alone}, {before}"
+        );
+    }
+    assert!(before[1].xyz[1] > 1000.0);
+    // What is opaque is white under D65, as the table of the observer has it.
+    let ground = marched(&["stage.ground=true", "effects.refraction=off"]);
+    for (found, white) in ground[2].opacity.into_iter().zip([0.9505, 1.0, 1.0890]) {
+        assert!((found - white).abs() < 2e-3, "{:?}", ground[2].opacity);
+    }
+    assert_eq!(before[1].opacity, ground[2].opacity);
+}

@@ -139,11 +139,12 @@ impl<'a> Marcher<'a> {
                     glow.xyz_of(features.into_iter()),
                 ];
                 xyz = std::array::from_fn(|c| xyz[c] + soot[c] + gas[c]);
-                opacity = [1.0; 3];
+                opacity = self.tables.opaque;
             }
             End::Screen(screen) => {
-                xyz = std::array::from_fn(|c| xyz[c] + screen[c] * (1.0 - opacity[c]));
-                opacity = [1.0; 3];
+                let through = self.tables.through(opacity);
+                xyz = std::array::from_fn(|c| xyz[c] + screen[c] * through[c]);
+                opacity = self.tables.opaque;
             }
         }
         Pixel {
@@ -201,7 +202,8 @@ impl<'a> Marcher<'a> {
                 // The soot's own light is no part of what is behind it.
                 End::Screen(screen) => {
                     let Pixel { opacity, .. } = self.pixel(&light, 0, &End::Dark);
-                    backdrop = std::array::from_fn(|c| screen[c] * (1.0 - f64::from(opacity[c])));
+                    let through = self.tables.through(opacity.map(f64::from));
+                    backdrop = std::array::from_fn(|c| screen[c] * through[c]);
                 }
             }
         }

@@ -246,9 +246,11 @@ impl InScatter {
     /// Estimated share of the picture's light that has been scattered more often than `orders` times (at least 1).
     pub(super) fn orders_left_out(&self, orders: u32) -> f64 {
         if self.share < 1.0 {
-            self.share.powi(orders as i32 + 1) / (1.0 - self.share)
+            // More scatterings than light: of what is scattered often, each counts, so that their share stays one of all.
+            let more = self.share.powi(orders as i32 + 1) / (1.0 - self.share);
+            more / (1.0 + more)
         } else {
-            f64::INFINITY
+            1.0
         }
     }
 }

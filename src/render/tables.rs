@@ -50,6 +50,8 @@ pub struct Tables {
     pub opaque_column_m: f32,
     /// Whether any light is scattered.
     pub scatters: bool,
+    /// X, Y, Z of the opacity of what lets nothing through.
+    pub opaque: [f64; 3],
 }
 
 /// Most wavelengths of any set.
@@ -100,6 +102,7 @@ impl Tables {
             clearest.map_or(f64::INFINITY, |clearest| OPAQUE_DEPTH / f64::from(clearest)) as f32;
         Self {
             scatters: nodes.iter().any(|node| node.scattering != [0.0; 2]),
+            opaque: wavelengths.opacity_of(nodes.iter().map(|_| 1.0)),
             wavelengths,
             nodes,
             glow,
@@ -107,6 +110,12 @@ impl Tables {
             size,
             opaque_column_m,
         }
+    }
+
+    /// Which share of white light of X, Y and Z an opacity lets through. The weights of fitted sets have both signs: what
+    /// that puts beyond 0 or 1 counts as these.
+    pub(super) fn through(&self, opacity: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|c| (1.0 - opacity[c] / self.opaque[c]).clamp(0.0, 1.0))
     }
 
     /// How many numbers light is carried in: nodes, then features.

@@ -115,16 +115,19 @@ impl Beam {
         // Across its line a log is a circle. Where along the line is that clearance?
         let across = |v: DVec3| v - v.dot(axis) * axis;
         let (far, near) = (across(self.axis), across(to_end));
-        if near.length() > log.radius_m {
+        let past_strip = if near.length() > log.radius_m {
             let (u, clearance) = self.clearance(near, far, log.radius_m);
+            // As much of the strip is there as the log covers of the beam's width along its line.
             let position = self.axis.dot(axis) / u - to_end.dot(axis);
-            if (0.0..=length).contains(&position) {
-                return 1.0 - between_edges(clearance);
-            }
-        }
+            let width = self.radius_m / u;
+            let covered = one_side((length - position) / width) - one_side(-position / width);
+            1.0 - covered * between_edges(clearance)
+        } else {
+            1.0
+        };
         let ends = log.ends.map(|end| end - self.from);
         let [a, b] = ends.map(|end| self.past_ball(end, log.radius_m));
-        a.min(b)
+        a.min(b).min(past_strip)
     }
 
     /// Whether the point, given from the object's middle, lies on the object's surface and looks away from it.
