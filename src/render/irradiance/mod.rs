@@ -220,20 +220,12 @@ impl FireLight {
                 }
                 continue;
             }
-            // What stands partly before a node stands before some of its parts: they are asked one by one.
-            if self.is_large(index) && is_touched(stage, [point, normal], node) {
-                for child in first..first + children {
-                    open[count] = child;
-                    count += 1;
-                }
-                continue;
-            }
             let per_power = ball::irradiance_per_power(height, distance, node.radius_m);
             // A point in the one spot of a cell that glows has no irradiance from it.
             if per_power.is_nan() || per_power <= 0.0 {
                 continue;
             }
-            let seen = self.seen(stage, [point, normal], index);
+            let seen = stage.visibility(point, normal, node.spot.centre, node.radius_m);
             if seen > 0.0 {
                 let strength = (per_power * seen) as f32;
                 let light = Light {
@@ -260,35 +252,8 @@ impl FireLight {
     /// How large a node may look to be one light, radius over distance.
     #[inline]
     fn opening_of(&self, node: u32) -> f64 {
-        self.opening[usize::from(self.is_large(node))]
-    }
-
-    /// Whether a node is above those of the lowest level with tables.
-    #[inline]
-    fn is_large(&self, node: u32) -> bool {
-        node as usize >= self.tree.first_table + self.tree.tables
-    }
-
-    /// Which share of a node's light comes past the stage to a point with a normal: of parts that are partly hidden, the
-    /// mean over their own parts by their light.
-    fn seen(&self, stage: &Stage, [point, normal]: [DVec3; 2], index: u32) -> f64 {
-        let node = &self.tree.nodes[index as usize];
-        let [first, children] = node.children;
-        if children == 0 {
-            return stage.visibility(point, normal, node.spot.centre, node.radius_m);
-        }
-        let whole = stage.visibility(point, normal, node.spot.centre, node.reach_m);
-        if whole <= 0.0 || whole >= 1.0 {
-            return whole;
-        }
-        let (mut seen, mut all) = (0.0, 0.0);
-        for child in first..first + children {
-            let power = self.tree.power_of(child, self.channels.blocks());
-            let weight: f32 = power.as_flattened().iter().sum();
-            all += f64::from(weight);
-            seen += f64::from(weight) * self.seen(stage, [point, normal], child);
-        }
-        if all > 0.0 { seen / all } else { whole }
+        let is_large = node as usize >= self.tree.first_table + self.tree.tables;
+        self.opening[usize::from(is_large)]
     }
 
     /// Adds the light of a node that is so near that it is a part of a table's.
@@ -349,12 +314,6 @@ struct Light<'a> {
     strength: f32,
     /// From it to the point.
     outwards: DVec3,
-}
-
-/// Whether something on the stage hides a part of a node, and not all, from a point with a normal.
-fn is_touched(stage: &Stage, [point, normal]: [DVec3; 2], node: &Node) -> bool {
-    let seen = stage.visibility(point, normal, node.spot.centre, node.reach_m);
-    seen > 0.0 && seen < 1.0
 }
 
 #[cfg(test)]
