@@ -36,6 +36,8 @@ pub(super) fn choose(harness: &mut Harness<'_, App>, menu: &str, option: &str) {
 
 /// Types into a number field as a person does: a click, the text, Enter.
 pub(super) fn type_into(harness: &mut Harness<'_, App>, label: &str, text: &str) {
+    // What the newest picture says under the controls moves those below.
+    settle(harness);
     harness
         .get_by_role_and_label(Role::SpinButton, label)
         .click();

@@ -10,6 +10,7 @@ use super::controls::{choose, job, tall_window, type_into};
 use super::*;
 
 fn press(harness: &mut Harness<'_, App>, label: &str) {
+    settle(harness);
     harness.get_by_label(label).click();
     harness.run_steps(3);
 }
