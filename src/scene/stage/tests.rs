@@ -325,3 +325,29 @@ fn a_picture_is_fitted_to_the_height_and_black_around() {
     );
     assert_eq!((y(9.9, 5.0), y(30.1, 5.0)), (0.0, 0.0));
 }
+
+#[test]
+fn the_end_of_a_log_casts_no_edge_of_its_own() {
+    let stage = Stage {
+        logs: vec![Log {
+            ends: [DVec3::new(0.0, 0.0, 0.4), DVec3::new(0.1, 0.0, 0.4)],
+            radius_m: 0.02,
+            colour: [0.5; 3],
+        }],
+        ..Stage::default()
+    };
+    // A light whose beam is four times as wide as the log: the penumbra is decimetres long.
+    for direction in [DVec3::X, DVec3::new(0.8, -0.6, 0.0)] {
+        let seen: Vec<f64> = (-800..800)
+            .map(|i| 0.002 * f64::from(i) * direction + 0.01 * DVec3::Y)
+            .map(|from| stage.visibility(from, DVec3::Z, DVec3::new(0.05, 0.0, 0.5), 0.1))
+            .collect();
+        let most = seen.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let most = most.fold(0.0, f64::max);
+        assert!(most < 0.02, "{direction}: a step of {most}");
+        assert!(
+            seen.iter().any(|&seen| seen < 0.95),
+            "{direction}: no shadow"
+        );
+    }
+}
