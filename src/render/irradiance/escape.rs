@@ -25,7 +25,7 @@ use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::channels::{BLOCK, Block, Channels};
-use super::directions::{Directions, Reading};
+use super::directions::Directions;
 use super::transmittance::{Way, mean_over_step};
 use super::tree::Tree;
 use crate::math::lanes::{self, Kernel};
@@ -46,8 +46,6 @@ pub(super) struct Escape {
     pub(super) directions: Directions,
     /// Share that gets out, for each node with a table, direction and channel.
     share: Vec<Block>,
-    /// The same of the luminous light, for each node with a table and direction.
-    luminous: Vec<f32>,
     blocks: usize,
     first_table: usize,
     /// What self-absorption leaves of each line's or band's light, a mean over all directions: for light that does not
@@ -89,7 +87,6 @@ impl Escape {
         let mut escape = Self {
             directions,
             share: Vec::new(),
-            luminous: Vec::new(),
             blocks,
             first_table: tree.first_table,
             thermal_share: thermal_shares(channels, &followed),
@@ -111,28 +108,7 @@ impl Escape {
                 }
             }
         }
-        let rows = escape.share.chunks_exact(blocks);
-        escape.luminous = rows
-            .enumerate()
-            .map(|(i, share)| {
-                let power = tree.power_of((tree.first_table + i / directions.len()) as u32, blocks);
-                let out: Vec<Block> = power
-                    .iter()
-                    .zip(share)
-                    .map(|(power, share)| std::array::from_fn(|k| power[k] * share[k]))
-                    .collect();
-                let [out, all] = [&out, power].map(|light| channels.luminous(light));
-                if all > 0.0 { out / all } else { 1.0 }
-            })
-            .collect();
         Some(escape)
-    }
-
-    /// The share of a node's luminous light that gets out in a direction.
-    pub(super) fn luminous_share(&self, node: usize, reading: &Reading) -> f64 {
-        let row = (node - self.first_table) * self.directions.len();
-        let share = |&(direction, weight): &(usize, f32)| weight * self.luminous[row + direction];
-        f64::from(reading.iter().map(share).sum::<f32>())
     }
 
     /// The share of one block of channels of a node for one direction.

@@ -62,7 +62,7 @@ use channels::{BLOCK, Block, Channels};
 use columns::Columns;
 use directions::Directions;
 use escape::Escape;
-use seen::Seen;
+use seen::{LuminousEscape, Seen};
 use tree::{Node, Tree};
 
 /// Most blocks of channels of any tables.
@@ -153,6 +153,7 @@ pub(super) struct FireLight {
     channels: Channels,
     tree: Tree,
     escape: Escape,
+    luminous: LuminousEscape,
     columns: Columns,
     /// What self-absorption leaves of each channel's light on the way through a part of the fire: 1 but for lines.
     alone: Vec<Block>,
@@ -196,6 +197,7 @@ impl FireLight {
             opening: effort.opening,
             finest_hidden: effort.finest_hidden,
             alone,
+            luminous: LuminousEscape::new(&channels, &tree, &escape),
             channels,
             tree,
             escape,
@@ -215,7 +217,7 @@ impl FireLight {
         let place = [point, normal];
         let whole = &self.tree.nodes[root as usize];
         let mut seen = Seen::new(
-            (&self.tree, &self.escape),
+            (&self.tree, &self.luminous),
             whole,
             stage,
             place,

@@ -15,6 +15,8 @@
 use glam::DVec3;
 
 use super::ball;
+use super::channels::{BLOCK, Block, Channels};
+use super::directions::{Directions, Reading};
 use super::escape::Escape;
 use super::tree::{Node, Tree};
 use crate::scene::Stage;
@@ -26,10 +28,55 @@ const LEAST_COSINE: f64 = 0.01;
 /// Least share of a part's light that is taken to get out: where all is too dense for any, parts count by their power.
 const LEAST_OUT: f64 = 1e-3;
 
+/// Share of the luminous light that gets out of each node with a table, direction by direction.
+#[derive(Debug)]
+pub(super) struct LuminousEscape {
+    directions: Directions,
+    first_table: usize,
+    share: Vec<f32>,
+}
+
+impl LuminousEscape {
+    pub(super) fn new(channels: &Channels, tree: &Tree, escape: &Escape) -> Self {
+        let (blocks, directions) = (channels.blocks(), escape.directions);
+        let mut share = Vec::new();
+        let mut out = vec![Block::default(); blocks];
+        for node in tree.first_table..tree.nodes.len() {
+            let power = tree.power_of(node as u32, blocks);
+            let all = channels.luminous(power);
+            for direction in 0..directions.len() {
+                for block in 0..blocks {
+                    let share = escape.share(node, direction, block);
+                    for k in 0..BLOCK {
+                        out[block][k] = power[block][k] * share[k];
+                    }
+                }
+                share.push(if all > 0.0 {
+                    channels.luminous(&out) / all
+                } else {
+                    1.0
+                });
+            }
+        }
+        Self {
+            directions,
+            first_table: tree.first_table,
+            share,
+        }
+    }
+
+    /// Of a node with a table in a direction.
+    fn of(&self, node: usize, reading: &Reading) -> f64 {
+        let row = (node - self.first_table) * self.directions.len();
+        let share = |&(direction, weight): &(usize, f32)| weight * self.share[row + direction];
+        f64::from(reading.iter().map(share).sum::<f32>())
+    }
+}
+
 /// The fire as one point of a surface sees it past the stage.
 pub(super) struct Seen<'a> {
     tree: &'a Tree,
-    escape: &'a Escape,
+    escape: &'a LuminousEscape,
     point: DVec3,
     normal: DVec3,
     shadows: Shadows,
@@ -43,7 +90,7 @@ impl<'a> Seen<'a> {
     /// Of a stage from a point with a unit normal. Nodes that give a smaller share than `finest` of the point's light are not
     /// asked in parts.
     pub(super) fn new(
-        (tree, escape): (&'a Tree, &'a Escape),
+        (tree, escape): (&'a Tree, &'a LuminousEscape),
         root: &Node,
         stage: &Stage,
         [point, normal]: [DVec3; 2],
@@ -117,7 +164,7 @@ impl<'a> Seen<'a> {
                     let outwards = self.point - centre;
                     let read = || self.escape.directions.read(outwards);
                     let reading = reading.get_or_insert_with(read);
-                    let share = self.escape.luminous_share(child.table as usize, reading);
+                    let share = self.escape.of(child.table as usize, reading);
                     share.max(LEAST_OUT)
                 };
                 all += light * gets_out;
