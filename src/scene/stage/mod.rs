@@ -3,7 +3,8 @@
 //! Surfaces are matt: they send what falls on them evenly into all directions (Lambert). They do not glow, light does
 //! not go from one to another, and the fire's gas flows through them as if they were not there.
 //!
-//! `shapes` say what there is, `meet` where a ray meets it, `shadow` what it hides of a small luminous ball.
+//! `shapes` say what there is, `meet` where a ray meets it, `shadow` what it hides of a small luminous ball,
+//! `shadows` what may be in the way at all.
 
 use glam::DVec3;
 
@@ -13,10 +14,12 @@ mod backdrop;
 mod meet;
 mod screen;
 mod shadow;
+mod shadows;
 mod shapes;
 
 pub use backdrop::{Backdrop, BackdropPicture, Pattern};
 pub use screen::Screen;
+pub use shadows::Shadows;
 pub use shapes::{Ground, Log, Sphere};
 
 /// Where a ray meets a surface.
@@ -65,21 +68,17 @@ impl Stage {
             .min_by(|a, b| a.distance_m.total_cmp(&b.distance_m))
     }
 
-    /// How much of the light of a small luminous ball, 0 to 1, comes past what stands on the stage to a point of a
-    /// surface with a unit normal. The surface's own horizon is left to the cosine.
+    /// What of the stage may throw a shadow on a point of a surface with a unit normal where all light comes from within a
+    /// ball (its centre and radius, m).
+    pub fn shadows_at(&self, point: DVec3, normal: DVec3, lights: (DVec3, f64)) -> Shadows {
+        Shadows::new(self, point, normal, lights)
+    }
+
+    /// How much of the light of a small luminous ball (radius in m), 0 to 1, comes past what stands on the stage to a point
+    /// of a surface with a unit normal. The surface's own horizon is left to the cosine.
     pub fn visibility(&self, from: DVec3, normal: DVec3, to: DVec3, radius_m: f64) -> f64 {
-        let beam = shadow::Beam::new(from, normal, to, radius_m);
-        let mut share = match &self.ground {
-            Some(ground) => beam.past_ground(ground),
-            None => 1.0,
-        };
-        for sphere in &self.spheres {
-            share *= beam.past_sphere(sphere);
-        }
-        for log in &self.logs {
-            share *= beam.past_log(log);
-        }
-        share
+        self.shadows_at(from, normal, (to, radius_m))
+            .visibility(to, radius_m)
     }
 
     /// Whether anything can be seen through the fire.
