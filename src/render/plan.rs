@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::fields::{Bent, Fields, Paths, Wanted};
 use super::level::Level;
+use super::orders::scattering_depth;
 use super::tables::Tables;
 use super::{Cancel, Effects, Flaws, Settings, Switch};
 use crate::colour::cie;
@@ -55,6 +56,9 @@ pub struct Facts {
     pub orders_left_out: Option<f64>,
 }
 
+/// Scattering depth from which on it is said that path-traced light is slow and noisy: few paths come to where it is bright.
+const DEEP_SMOKE: f64 = 20.0;
+
 /// Optical depth of a step from which on the picture's error is said: the midpoint rule is off by about τ²/24 of a
 /// step's light, here 1 %.
 const THICK_STEP: f64 = 0.5;
@@ -70,6 +74,14 @@ impl Plan {
         let mut plan = Self::of(scene, settings.size, wavelengths, features, decisions);
         if plan.wanted.scatter {
             plan.orders = settings.scattering_orders;
+            plan.wanted.around = plan.orders > 1;
+            let depth = scattering_depth(scene, &plan.tables);
+            if plan.orders > 1 && depth > DEEP_SMOKE {
+                plan.flaws.add(format!(
+                    "light is scattered up to {depth:.0} times on a straight way through: what is scattered more than once \
+                     takes long and is noisy here. More rays for each pixel make it smoother"
+                ));
+            }
         }
         let medium = scene.flame.medium();
         let densest = plan
@@ -126,6 +138,7 @@ impl Plan {
     ) -> Self {
         let wanted = Wanted {
             scatter: is_on(&decisions, SCATTERING),
+            around: false,
             fire_light: is_on(&decisions, FIRE_LIGHT),
             bent: is_on(&decisions, REFRACTION).then(|| {
                 if is_on(&decisions, DISPERSION) {

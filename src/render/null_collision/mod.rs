@@ -23,7 +23,11 @@
 //! heuristic over path densities (Wilkie et al. 2014; Miller, Georgiev and Jarosz 2019). No wavelength's weight ever
 //! exceeds their number, however much σ_s differs between them.
 //!
-//! *Roulette.* A path whose heaviest weight falls below a thousandth ends with the odds that keep the mean.
+//! *Roulette.* A path whose heaviest weight falls below a thousandth, and from its second scattering on below a quarter of
+//! what it was then, ends with the odds that keep the mean.
+//!
+//! *Known light.* Where the light that is scattered for the first time is known everywhere, a path takes that up in the
+//! place of emission: it need not find the hot core by chance, which few paths do and then with much light each.
 //!
 //! Where absorption and emission balance (everything at one temperature, with surroundings that glow alike) the shares
 //! of a path telescope to Planck's radiance without any noise, as long as one law serves all wavelengths or nothing
@@ -32,10 +36,11 @@
 //! # Reading
 //!
 //! [`Params`] say what is simulated, `optics` what the medium is at a point, `bricks` where collisions may be, `surfaces`
-//! what a path does at the stage, `path` follows one path, [`Estimate`] is the mean of many.
+//! what a path does at the stage, `path` follows one path, `light` is what it carries, `weights` what that weighs, [`Estimate`] is the mean of many.
 
 use rayon::prelude::*;
 
+use super::Cancel;
 use crate::math::Ray;
 use crate::math::random::Stream;
 use crate::scene::Scene;
@@ -44,13 +49,17 @@ use crate::spectral::Wavelengths;
 
 mod bricks;
 mod estimate;
+mod light;
 mod optics;
 mod params;
 mod path;
 mod surfaces;
+mod weights;
 
 pub use estimate::Estimate;
 pub use params::{Environment, Params, Scattering};
+
+pub(super) use light::Around;
 
 use estimate::Tally;
 use path::Tracer;
@@ -68,7 +77,22 @@ impl<'a> NullCollision<'a> {
         Self {
             scene,
             wavelengths,
-            tracer: Tracer::new(scene, wavelengths, params),
+            tracer: Tracer::new(scene, wavelengths, params, None),
+        }
+    }
+
+    /// The same for paths that end in light which is known: the bounces of `params` are those before the scattering at which
+    /// they take it up.
+    pub(super) fn in_known_light(
+        scene: &'a Scene,
+        wavelengths: &'a Wavelengths,
+        params: &Params,
+        around: &'a dyn Around,
+    ) -> Self {
+        Self {
+            scene,
+            wavelengths,
+            tracer: Tracer::new(scene, wavelengths, params, Some(around)),
         }
     }
 
@@ -87,7 +111,22 @@ impl<'a> NullCollision<'a> {
         seed: u64,
     ) -> Result<Estimate, CameraError> {
         let view = self.scene.camera.view(size)?;
-        Ok(self.through(&view, point, samples, seed))
+        Ok(self.through(&view, point, samples, seed, &Cancel::never()))
+    }
+
+    /// The mean alone, with a cancel that is asked before each path. Zero if the camera cannot see; nonsense if cancelled.
+    pub(super) fn mean(
+        &self,
+        size: [u32; 2],
+        point: [f64; 2],
+        samples: u32,
+        seed: u64,
+        cancel: &Cancel,
+    ) -> [f64; 3] {
+        let Ok(view) = self.scene.camera.view(size) else {
+            return [0.0; 3];
+        };
+        self.through(&view, point, samples, seed, cancel).mean
     }
 
     /// [`NullCollision::estimate`] through the centres of all pixels, row by row, in the calling thread's rayon pool.
@@ -107,17 +146,27 @@ impl<'a> NullCollision<'a> {
         let pixels = u64::from(size[0]) * u64::from(size[1]);
         Ok((0..pixels)
             .into_par_iter()
-            .map(|pixel| self.through(&view, centre(pixel), samples, seed))
+            .map(|pixel| self.through(&view, centre(pixel), samples, seed, &Cancel::never()))
             .collect())
     }
 
-    fn through(&self, view: &View, point: [f64; 2], samples: u32, seed: u64) -> Estimate {
+    fn through(
+        &self,
+        view: &View,
+        point: [f64; 2],
+        samples: u32,
+        seed: u64,
+        cancel: &Cancel,
+    ) -> Estimate {
         let ray: Ray = view.ray(point[0], point[1]);
         let place = point.map(|side| (side as f32).to_bits());
         let mut tally = Tally::default();
         let mut stretches = Vec::new();
         let mut radiance = vec![0.0; self.tracer.len()];
         for sample in 0..samples {
+            if cancel.is_cancelled() {
+                break;
+            }
             radiance.fill(0.0);
             let mut random = Stream::new(seed, place, sample);
             self.tracer
