@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Cancel;
 use super::irradiance::FireLight;
 use super::level::Level;
-use super::scatter::{AllAround, InScatter};
+use super::scatter::InScatter;
 use super::shift::largest_shift_px;
 use super::tables::Tables;
 use crate::scene::Scene;
@@ -17,8 +17,6 @@ use crate::scene::refractivity::{PATHS_NM, Refractivity};
 pub struct Wanted {
     /// The fire's light scattered towards the eye.
     pub scatter: bool,
-    /// The same in any other direction, for light that is scattered on; not in coarse fields.
-    pub around: bool,
     /// The fire as a light for the stage.
     pub fire_light: bool,
     /// The gas that bends rays.
@@ -38,8 +36,6 @@ pub enum Paths {
 #[derive(Debug, Default)]
 pub struct Fields {
     pub(super) scatter: Option<InScatter>,
-    /// What paths of light that is scattered more than once take up.
-    pub(super) around: Option<AllAround>,
     pub(super) fire_light: Option<FireLight>,
     pub(super) bent: Option<Arc<Bent>>,
 }
@@ -65,13 +61,10 @@ impl Fields {
         level: Level,
         cancel: &Cancel,
     ) -> Option<Self> {
-        let (scatter, around) = match (wanted.scatter, wanted.around && level == Level::Fine) {
-            (false, _) => (None, None),
-            (true, false) => (Some(InScatter::new(scene, tables, level, cancel)?), None),
-            (true, true) => {
-                let (scatter, around) = InScatter::with_around(scene, tables, level, cancel)?;
-                (Some(scatter), Some(around))
-            }
+        let scatter = if wanted.scatter {
+            Some(InScatter::new(scene, tables, level, cancel)?)
+        } else {
+            None
         };
         let fire_light = if wanted.fire_light {
             Some(FireLight::new(scene, tables, level, cancel)?)
@@ -80,7 +73,6 @@ impl Fields {
         };
         Some(Self {
             scatter,
-            around,
             fire_light,
             bent,
         })

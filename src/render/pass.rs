@@ -66,8 +66,8 @@ fn offset(sample: u32) -> [f64; 2] {
 /// Renders one pass in the calling thread's rayon pool, tiles from the centre of the picture outwards, and hands
 /// each to `sink` from the worker that made it. `false` if it was cancelled before the last tile.
 ///
-/// The cancel is asked before each packet of sixteen rays, and before each path of light that is scattered more than once. A camera that cannot see gives no tiles: settings and
-/// camera are checked at the doors.
+/// The cancel is asked before each packet of sixteen rays, and before each path of light that is scattered more than
+/// once. A camera that cannot see gives no tiles: settings and camera are checked at the doors.
 pub fn render_pass(
     scene: &Scene,
     plan: &Plan,
@@ -88,8 +88,8 @@ pub fn render_pass(
         return true;
     };
     // Coarse passes are for speed.
-    let around = fields.around.as_ref().filter(|_| pass.stride == 1);
-    let higher = around.map(|around| HigherOrders::new(scene, &plan.tables, plan.orders, around));
+    let higher = (plan.orders > 1 && pass.stride == 1)
+        .then(|| HigherOrders::new(scene, &plan.tables, plan.orders));
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
     let tiles = centre_out(rays);
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));

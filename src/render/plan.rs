@@ -56,7 +56,7 @@ pub struct Facts {
     pub orders_left_out: Option<f64>,
 }
 
-/// Scattering depth from which on it is said that path-traced light is slow and noisy: few paths come to where it is bright.
+/// Scattering depth from which on it is said that path-traced light is noisy: few paths come to where it is bright.
 const DEEP_SMOKE: f64 = 20.0;
 
 /// Optical depth of a step from which on the picture's error is said: the midpoint rule is off by about τ²/24 of a
@@ -74,12 +74,11 @@ impl Plan {
         let mut plan = Self::of(scene, settings.size, wavelengths, features, decisions);
         if plan.wanted.scatter {
             plan.orders = settings.scattering_orders;
-            plan.wanted.around = plan.orders > 1;
             let depth = scattering_depth(scene, &plan.tables);
             if plan.orders > 1 && depth > DEEP_SMOKE {
                 plan.flaws.add(format!(
-                    "light is scattered up to {depth:.0} times on a straight way through: what is scattered more than once \
-                     takes long and is noisy here. More rays for each pixel make it smoother"
+                    "a straight way through the fire is up to {depth:.0} mean free paths between scatterings long: what is \
+                     scattered more than once is noisy here. More rays for each pixel make it smoother"
                 ));
             }
         }
@@ -138,7 +137,6 @@ impl Plan {
     ) -> Self {
         let wanted = Wanted {
             scatter: is_on(&decisions, SCATTERING),
-            around: false,
             fire_light: is_on(&decisions, FIRE_LIGHT),
             bent: is_on(&decisions, REFRACTION).then(|| {
                 if is_on(&decisions, DISPERSION) {

@@ -47,13 +47,10 @@ use super::tables::Tables;
 use crate::math::lanes::Lanes;
 use crate::scene::Scene;
 
-mod around;
 mod gathered;
 mod sharpen;
 
-pub(super) use around::AllAround;
-
-use gathered::{Gathered, Towards};
+use gathered::Gathered;
 
 /// How finely J is worked out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,39 +130,12 @@ impl InScatter {
         Self::with_effort(scene, tables, Effort::of(level), cancel)
     }
 
-    /// The same and, from the same sweeps, the light that is scattered in any direction.
-    pub(super) fn with_around(
-        scene: &Scene,
-        tables: &Tables,
-        level: Level,
-        cancel: &Cancel,
-    ) -> Option<(Self, AllAround)> {
-        let asymmetry = Colours::new(&scene.flame, tables).asymmetry();
-        let towards = around::towards(&asymmetry);
-        let effort = Effort::of(level);
-        let mut found = Self::several(scene, tables, effort, &towards, cancel)?.into_iter();
-        let to_eye = found.next()?;
-        Some((to_eye, AllAround::new(found.collect())))
-    }
-
     fn with_effort(
         scene: &Scene,
         tables: &Tables,
         effort: Effort,
         cancel: &Cancel,
     ) -> Option<Self> {
-        let found = Self::several(scene, tables, effort, &[Towards::Eye], cancel)?;
-        found.into_iter().next()
-    }
-
-    /// One for each of where light is scattered to.
-    fn several(
-        scene: &Scene,
-        tables: &Tables,
-        effort: Effort,
-        towards: &[Towards],
-        cancel: &Cancel,
-    ) -> Option<Vec<Self>> {
         // The medium in cells, and the directions from which their light is taken.
         let colours = Colours::new(&scene.flame, tables);
         let most = effort.cells.min(MOST_FLOATS / (WIDE * colours.chunks()));
@@ -178,10 +148,7 @@ impl InScatter {
         let directions = directions(effort.for_asymmetry(f64::from(strongest)).directions);
 
         // Each direction's light goes to all cells.
-        let gather = |&towards: &Towards| {
-            Gathered::new(scene, &cells, &asymmetry, luminous(tables), towards)
-        };
-        let mut gathered: Vec<Gathered<'_>> = towards.iter().map(gather).collect();
+        let mut gathered = Gathered::new(scene, &cells, &asymmetry, luminous(tables));
         let extinction = colours.extinction();
         let mut light = Vec::new();
         let to_cells = scene.flame.medium().lattice_from_world.matrix3 * (1.0 / cells.edge as f64);
@@ -191,54 +158,37 @@ impl InScatter {
             }
             let sweep = Sweep::new(&cells, &extinction, to_cells * direction);
             sweep.follow(&mut light);
-            for gathered in &mut gathered {
-                gathered.take(&sweep, &light, direction);
-            }
+            gathered.take(&sweep, &light, direction);
         }
+        gathered.normalise(&directions);
 
+        let share = gathered.share(&colours, directions.len());
         let voxel_m = scene.flame.medium().voxel_size_m();
         let reach_m = reach_m(cells.edge as f64, voxel_m) as f32;
         let features = tables.features.len();
         let radicals = colours.len() - colours.nodes;
-        let finished = |mut gathered: Gathered<'_>| {
-            gathered.normalise(&directions);
-            Self {
-                first: cells.first.map(f64::from),
-                per_voxel: 1.0 / cells.edge as f64,
-                size: cells.size,
-                chunks: cells.chunks,
-                light: sharpen::sharpened(&gathered, &extinction, reach_m),
-                reach_m,
-                counts: [colours.nodes, features - radicals, radicals],
-                share: gathered.share(&colours, directions.len()),
-            }
-        };
-        Some(gathered.into_iter().map(finished).collect())
+        Some(Self {
+            first: cells.first.map(f64::from),
+            per_voxel: 1.0 / cells.edge as f64,
+            size: cells.size,
+            chunks: cells.chunks,
+            light: sharpen::sharpened(&gathered, &extinction, reach_m),
+            reach_m,
+            counts: [colours.nodes, features - radicals, radicals],
+            share,
+        })
     }
 
     /// ∫ L Φ dω at a lattice position less own light: spectral radiance at each node, then radiance of each feature, into
     /// lane `lane` of `light`. It may be below zero; what [`super::own_light`] says of the place belongs to it.
     #[inline(always)]
     pub(super) fn read(&self, position: [f64; 3], lane: usize, light: &mut [Lanes]) {
-        let [nodes, silent, _] = self.counts;
         if self.light.is_empty() {
             for light in light {
                 light[lane] = 0.0;
             }
             return;
         }
-        self.each(position, |colour, value| {
-            let silent = if colour < nodes { 0 } else { silent };
-            light[colour + silent][lane] = value;
-        });
-        for light in &mut light[nodes..nodes + silent] {
-            light[lane] = 0.0;
-        }
-    }
-
-    /// Hands out the light of each node and radical at a lattice position; there must be some.
-    #[inline(always)]
-    fn each(&self, position: [f64; 3], mut put: impl FnMut(usize, f32)) {
         // Between the middles of eight cells; beyond the outermost middles as there.
         let [x, y, _] = self.size;
         let (mut first, mut fraction) = (0, [0.0_f32; 3]);
@@ -254,7 +204,7 @@ impl InScatter {
                 next[axis] = 0;
             }
         }
-        let [nodes, _, radicals] = self.counts;
+        let [nodes, silent, radicals] = self.counts;
         for chunk in 0..self.chunks {
             let tap = |corner: usize| {
                 let step = |axis: usize| (corner >> axis & 1) * next[axis];
@@ -277,9 +227,13 @@ impl InScatter {
             for colour in colours.take(WIDE) {
                 let [own, number] = Colours::place(colour);
                 if own == chunk {
-                    put(colour, found[number]);
+                    let silent = if colour < nodes { 0 } else { silent };
+                    light[colour + silent][lane] = found[number];
                 }
             }
+        }
+        for light in &mut light[nodes..nodes + silent] {
+            light[lane] = 0.0;
         }
     }
 
@@ -325,4 +279,4 @@ fn luminous(tables: &Tables) -> usize {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -15,19 +15,16 @@
 //! is left, so that emission is integrated along all of the flight and not only where light happens to be absorbed;
 //! then the weight loses the share σ_a/μ, and a random number decides whether the path scatters or goes on as if
 //! nothing had been there. Any rate gives the right mean (Novák et al. 2014), so it is raised where the brick may glow:
-//! a flight spends [`Params::emission_points`] collisions more in proportion to the glow of what it crosses, and
-//! [`Params::scattering_points`] in proportion to its extinction. Bricks in which nothing shows are jumped over.
+//! a flight whose light counts spends [`Params::emission_points`] collisions more in proportion to the glow of what it
+//! crosses, and one that may scatter no fewer than [`Params::scattering_points`] in proportion to its extinction. Bricks in
+//! which nothing shows are jumped over.
 //!
 //! *Wavelengths.* All of them travel on one path. The decisions are made with the optics of one, chosen evenly, and
 //! each wavelength's light is divided by the mean over all choices of the probability of what happened: the balance
 //! heuristic over path densities (Wilkie et al. 2014; Miller, Georgiev and Jarosz 2019). No wavelength's weight ever
 //! exceeds their number, however much σ_s differs between them.
 //!
-//! *Roulette.* A path whose heaviest weight falls below a thousandth, and from its second scattering on below a quarter of
-//! what it was then, ends with the odds that keep the mean.
-//!
-//! *Known light.* Where the light that is scattered for the first time is known everywhere, a path takes that up in the
-//! place of emission: it need not find the hot core by chance, which few paths do and then with much light each.
+//! *Roulette.* A path whose heaviest weight falls below a thousandth ends with the odds that keep the mean.
 //!
 //! Where absorption and emission balance (everything at one temperature, with surroundings that glow alike) the shares
 //! of a path telescope to Planck's radiance without any noise, as long as one law serves all wavelengths or nothing
@@ -36,7 +33,8 @@
 //! # Reading
 //!
 //! [`Params`] say what is simulated, `optics` what the medium is at a point, `bricks` where collisions may be, `surfaces`
-//! what a path does at the stage, `path` follows one path, `light` is what it carries, `weights` what that weighs, [`Estimate`] is the mean of many.
+//! what a path does at the stage, `path` follows one path, `light` is what it carries, `weights` what that weighs,
+//! [`Estimate`] is the mean of many.
 
 use rayon::prelude::*;
 
@@ -59,8 +57,6 @@ mod weights;
 pub use estimate::Estimate;
 pub use params::{Environment, Params, Scattering};
 
-pub(super) use light::Around;
-
 use estimate::Tally;
 use path::Tracer;
 
@@ -77,22 +73,7 @@ impl<'a> NullCollision<'a> {
         Self {
             scene,
             wavelengths,
-            tracer: Tracer::new(scene, wavelengths, params, None),
-        }
-    }
-
-    /// The same for paths that end in light which is known: the bounces of `params` are those before the scattering at which
-    /// they take it up.
-    pub(super) fn in_known_light(
-        scene: &'a Scene,
-        wavelengths: &'a Wavelengths,
-        params: &Params,
-        around: &'a dyn Around,
-    ) -> Self {
-        Self {
-            scene,
-            wavelengths,
-            tracer: Tracer::new(scene, wavelengths, params, Some(around)),
+            tracer: Tracer::new(scene, wavelengths, params),
         }
     }
 

@@ -13,17 +13,13 @@ use crate::scene::{Medium, Scene};
 use crate::spectral::Wavelengths;
 
 use super::bricks::{self, Bounds};
-use super::light::{Around, Collision, Light};
+use super::light::{Collision, Light};
 use super::optics::{Optics, Place};
 use super::params::Params;
 use super::surfaces::{self, Surfaces};
 
 /// Scatterings for each flight that [`Params::scattering_points`] see to: e^{−1/2} of all flights stay unscattered.
 const SCATTERED: f64 = 0.5;
-
-/// Scatterings after which a path is held against what it weighs then. The light of the first orders is what it is
-/// followed for.
-const ORDERS_BEFORE_PAR: u32 = 2;
 
 /// Follows paths through one flame.
 pub(super) struct Tracer<'a> {
@@ -36,7 +32,6 @@ pub(super) struct Tracer<'a> {
     environment: Vec<f64>,
     emission_points: f64,
     scattering_points: f64,
-    around: Option<&'a dyn Around>,
     surfaces: Surfaces<'a>,
 }
 
@@ -60,13 +55,7 @@ struct Rates {
 }
 
 impl<'a> Tracer<'a> {
-    /// A tracer of paths that take up what the medium emits, or what is scattered once more of what is known to be around.
-    pub(super) fn new(
-        scene: &'a Scene,
-        wavelengths: &Wavelengths,
-        params: &Params,
-        around: Option<&'a dyn Around>,
-    ) -> Self {
+    pub(super) fn new(scene: &'a Scene, wavelengths: &Wavelengths, params: &Params) -> Self {
         let flame = &scene.flame;
         let optics = Optics::new(flame, wavelengths, params);
         let shine = |&nm: &f64| params.environment.radiance(nm);
@@ -82,7 +71,6 @@ impl<'a> Tracer<'a> {
             environment: wavelengths.nodes_nm.iter().map(shine).collect(),
             emission_points: params.emission_points.max(0.0),
             scattering_points: params.scattering_points.max(0.0),
-            around,
             surfaces: Surfaces::new(&scene.stage, params.max_reflections),
             optics,
         }
@@ -133,9 +121,6 @@ impl<'a> Tracer<'a> {
                     let (direction, cosine) = turned(ray.direction, phase, random);
                     light.weights.turn(&self.optics, light.hero, cosine);
                     light.weights.normalise();
-                    if bounces == ORDERS_BEFORE_PAR {
-                        light.weights.set_par();
-                    }
                     ray = Ray {
                         origin: ray.at(distance),
                         direction,
@@ -178,23 +163,16 @@ impl<'a> Tracer<'a> {
                 if t >= end {
                     break;
                 }
-                let position = local.at(t);
-                let place = self.place(position);
+                let place = self.place(local.at(t));
                 if place.soot <= 0.0 && place.flame <= 0.0 {
                     continue;
                 }
-                let collision = Collision {
-                    place,
-                    position,
-                    direction: -ray.direction,
-                    rate,
-                };
-                let (optics, around) = (&self.optics, self.around);
+                let collision = Collision { place, rate };
                 let scattered = if may_scatter {
                     let decision = random.uniform();
-                    light.collide(optics, around, &collision, least_odds, decision)
+                    light.collide(&self.optics, &collision, least_odds, decision)
                 } else {
-                    light.pass(optics, around, &collision);
+                    light.pass(&self.optics, &collision);
                     false
                 };
                 if !light.weights.survive(random) {
@@ -239,12 +217,8 @@ impl<'a> Tracer<'a> {
             stretches.iter().map(of).sum()
         };
         let (depth, glow) = (sum(|bounds| bounds.extinction), sum(|bounds| bounds.glow));
-        let of_glow = if counts && self.around.is_none() {
-            self.emission_points
-        } else {
-            0.0
-        };
-        let of_depth = if may_scatter || (counts && self.around.is_some()) {
+        let of_glow = if counts { self.emission_points } else { 0.0 };
+        let of_depth = if may_scatter {
             (self.scattering_points - depth).max(0.0)
         } else {
             0.0

@@ -4,11 +4,8 @@ use crate::math::random::Stream;
 
 use super::optics::Optics;
 
-/// A path whose heaviest weight is below this plays roulette, as long as it has no par.
+/// A path whose heaviest weight is below this plays roulette for going on.
 const ROULETTE: f64 = 1e-3;
-
-/// The same as a share of the par. Weights that fall from a par to this in one step make the noise of one in four.
-const PAR: f64 = 0.25;
 
 /// What a path has been through: for each wavelength the product of what physics says, and of how probable the
 /// decisions would have been had it been in charge. Both are densities of the same path, up to a common factor.
@@ -17,8 +14,6 @@ pub(super) struct Weights {
     pub(super) density: Vec<f64>,
     /// What turns a value into a weight: one over the mean density.
     pub(super) share: f64,
-    /// A path whose heaviest weight is below this plays roulette for going on.
-    least: f64,
 }
 
 impl Weights {
@@ -27,7 +22,6 @@ impl Weights {
             value: vec![1.0; count],
             density: vec![1.0; count],
             share: 1.0,
-            least: ROULETTE,
         }
     }
 
@@ -60,29 +54,19 @@ impl Weights {
         self.share = 1.0;
     }
 
-    /// From now on, what is left is held against what there is: the rest of the path is worth its time as far as its weight
-    /// keeps up.
-    pub(super) fn set_par(&mut self) {
-        self.least = PAR * self.heaviest();
-    }
-
-    fn heaviest(&self) -> f64 {
-        let heavier = |most: f64, value: &f64| most.max(value.abs());
-        self.value.iter().fold(0.0, heavier) * self.share
-    }
-
     /// Plays roulette if all weights are small; whether the path goes on. A survivor weighs as much more as its survival
     /// was improbable, so that the mean stays (J. Arvo and D. Kirk, SIGGRAPH 1990).
     pub(super) fn survive(&mut self, random: &mut Stream) -> bool {
-        let heaviest = self.heaviest();
-        if heaviest >= self.least && heaviest > 0.0 {
+        let heavier = |most: f64, value: &f64| most.max(value.abs());
+        let heaviest = self.value.iter().fold(0.0, heavier) * self.share;
+        if heaviest >= ROULETTE {
             return true;
         }
-        if random.uniform() * self.least >= heaviest {
+        if random.uniform() * ROULETTE >= heaviest {
             return false;
         }
         for value in &mut self.value {
-            *value *= self.least / heaviest;
+            *value *= ROULETTE / heaviest;
         }
         true
     }
@@ -107,29 +91,5 @@ mod tests {
         }
         let mean = sum / f64::from(count) / (0.5 * small);
         assert!((mean - 1.0).abs() < 0.04, "{mean}");
-    }
-    #[test]
-    fn roulette_against_a_par_keeps_the_mean_of_a_whole_path() {
-        // A path loses nine tenths at each of four steps and brings its weight at every one; the sum of all is known.
-        let mut random = Stream::new(3, [0, 0], 0);
-        let count = 200_000;
-        let (mut sum, mut steps) = (0.0, 0);
-        for _ in 0..count {
-            let mut weights = Weights::new(2);
-            weights.value = vec![0.01, 0.005];
-            weights.set_par();
-            for _ in 0..4 {
-                weights.value.iter_mut().for_each(|value| *value *= 0.1);
-                if !weights.survive(&mut random) {
-                    break;
-                }
-                steps += 1;
-                sum += weights.value[1];
-            }
-        }
-        let mean = sum / f64::from(count) / 0.005;
-        assert!((mean / 0.1111 - 1.0).abs() < 0.02, "{mean}");
-        // Most paths end where going on is not worth it.
-        assert!(steps < count * 3 / 4, "{steps}");
     }
 }

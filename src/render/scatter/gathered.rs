@@ -20,17 +20,6 @@ pub(super) struct Gathered<'a> {
     sum: Vec<f32>,
 }
 
-/// Where light is scattered to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Towards {
-    /// To the camera's eye, from each place its own way.
-    Eye,
-    /// In one direction, in the world, from everywhere.
-    Direction(DVec3),
-    /// Evenly, as if all asymmetries were 0.
-    AllSides,
-}
-
 /// Phase functions of a record's colours.
 #[derive(Debug, Clone)]
 struct Lobe {
@@ -76,7 +65,6 @@ impl<'a> Gathered<'a> {
         cells: &'a Cells,
         asymmetry: &[Chunk],
         luminous: usize,
-        towards: Towards,
     ) -> Self {
         let [x, y, z] = cells.size;
         let world_from_lattice = scene.flame.medium().lattice_from_world.inverse();
@@ -91,16 +79,9 @@ impl<'a> Gathered<'a> {
                 let record = cells.records[at * cells.chunks];
                 record[0] + record[1] > 0.0
             });
-            let towards = match towards {
-                Towards::Eye => {
-                    let place = world_from_lattice.transform_point3(cells.middle(cell));
-                    (scene.camera.eye - place)
-                        .try_normalize()
-                        .unwrap_or(DVec3::Z)
-                }
-                Towards::Direction(direction) => direction,
-                Towards::AllSides => DVec3::Z,
-            };
+            let towards =
+                scene.camera.eye - world_from_lattice.transform_point3(cells.middle(cell));
+            let towards = towards.try_normalize().unwrap_or(DVec3::Z);
             if beside {
                 towards.as_vec3().to_array()
             } else {
@@ -110,10 +91,7 @@ impl<'a> Gathered<'a> {
         let count = x * y * z;
         Self {
             cells,
-            lobe: match towards {
-                Towards::AllSides => Lobe::new(&vec![[0.0; WIDE]; asymmetry.len()]),
-                Towards::Eye | Towards::Direction(_) => Lobe::new(asymmetry),
-            },
+            lobe: Lobe::new(asymmetry),
             to_eye: (0..count).into_par_iter().map(to_eye).collect(),
             light: vec![[0.0; WIDE]; count * cells.chunks],
             luminous,
