@@ -1,4 +1,7 @@
 //! Light that is scattered more than once, as a picture adds it, against the unbiased reference.
+//!
+//! Both weigh their paths by the same code, which `furnace.rs` holds to closed forms. What is held here is that a picture's
+//! other rates of collisions and other odds of scattering change no mean, and that the picture adds what they bring.
 
 use std::sync::{Arc, Mutex};
 
