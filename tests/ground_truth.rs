@@ -15,6 +15,7 @@ mod fire_light;
 mod furnace;
 mod glow;
 mod null_collision;
+mod orders;
 mod scattering;
 mod z_test;
 

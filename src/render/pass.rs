@@ -66,8 +66,8 @@ fn offset(sample: u32) -> [f64; 2] {
 /// Renders one pass in the calling thread's rayon pool, tiles from the centre of the picture outwards, and hands
 /// each to `sink` from the worker that made it. `false` if it was cancelled before the last tile.
 ///
-/// The cancel is asked before each packet of sixteen rays. A camera that cannot see gives no tiles: settings and
-/// camera are checked at the doors.
+/// The cancel is asked before each packet of sixteen rays, and before each path of light that is scattered more than
+/// once. A camera that cannot see gives no tiles: settings and camera are checked at the doors.
 pub fn render_pass(
     scene: &Scene,
     plan: &Plan,
@@ -154,7 +154,10 @@ fn render_tile(
             samples += taken;
             for ((place, point), mut pixel) in places.iter().zip(points).zip(packet) {
                 if let (Some(higher), Some(point)) = (higher, point) {
-                    higher.add(point, pass.sample, &mut pixel);
+                    higher.add(point, pass.sample, &mut pixel, cancel);
+                    if cancel.is_cancelled() {
+                        return None;
+                    }
                 }
                 if let Some([x, y]) = place {
                     pixels[(y * size[0] + x) as usize] = pixel;

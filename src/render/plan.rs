@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::fields::{Bent, Fields, Paths, Wanted};
 use super::level::Level;
+use super::orders::scattering_depth;
 use super::tables::Tables;
 use super::{Cancel, Effects, Flaws, Settings, Switch};
 use crate::colour::cie;
@@ -55,6 +56,9 @@ pub struct Facts {
     pub orders_left_out: Option<f64>,
 }
 
+/// Scattering depth from which on it is said that path-traced light is noisy: few paths come to where it is bright.
+const DEEP_SMOKE: f64 = 20.0;
+
 /// Optical depth of a step from which on the picture's error is said: the midpoint rule is off by about τ²/24 of a
 /// step's light, here 1 %.
 const THICK_STEP: f64 = 0.5;
@@ -70,6 +74,13 @@ impl Plan {
         let mut plan = Self::of(scene, settings.size, wavelengths, features, decisions);
         if plan.wanted.scatter {
             plan.orders = settings.scattering_orders;
+            let depth = scattering_depth(scene, &plan.tables);
+            if plan.orders > 1 && depth > DEEP_SMOKE {
+                plan.flaws.add(format!(
+                    "a straight way through the fire is up to {depth:.0} mean free paths between scatterings long: what is \
+                     scattered more than once is noisy here. More rays for each pixel make it smoother"
+                ));
+            }
         }
         let medium = scene.flame.medium();
         let densest = plan

@@ -279,4 +279,4 @@ fn luminous(tables: &Tables) -> usize {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -15,8 +15,9 @@
 //! is left, so that emission is integrated along all of the flight and not only where light happens to be absorbed;
 //! then the weight loses the share σ_a/μ, and a random number decides whether the path scatters or goes on as if
 //! nothing had been there. Any rate gives the right mean (Novák et al. 2014), so it is raised where the brick may glow:
-//! a flight spends [`Params::emission_points`] collisions more in proportion to the glow of what it crosses, and
-//! [`Params::scattering_points`] in proportion to its extinction. Bricks in which nothing shows are jumped over.
+//! a flight whose light counts spends [`Params::emission_points`] collisions more in proportion to the glow of what it
+//! crosses, and one that may scatter no fewer than [`Params::scattering_points`] in proportion to its extinction. Bricks in
+//! which nothing shows are jumped over.
 //!
 //! *Wavelengths.* All of them travel on one path. The decisions are made with the optics of one, chosen evenly, and
 //! each wavelength's light is divided by the mean over all choices of the probability of what happened: the balance
@@ -32,10 +33,12 @@
 //! # Reading
 //!
 //! [`Params`] say what is simulated, `optics` what the medium is at a point, `bricks` where collisions may be, `surfaces`
-//! what a path does at the stage, `path` follows one path, [`Estimate`] is the mean of many.
+//! what a path does at the stage, `path` follows one path, `light` is what it carries, `weights` what that weighs,
+//! [`Estimate`] is the mean of many.
 
 use rayon::prelude::*;
 
+use super::Cancel;
 use crate::math::Ray;
 use crate::math::random::Stream;
 use crate::scene::Scene;
@@ -44,10 +47,12 @@ use crate::spectral::Wavelengths;
 
 mod bricks;
 mod estimate;
+mod light;
 mod optics;
 mod params;
 mod path;
 mod surfaces;
+mod weights;
 
 pub use estimate::Estimate;
 pub use params::{Environment, Params, Scattering};
@@ -87,7 +92,22 @@ impl<'a> NullCollision<'a> {
         seed: u64,
     ) -> Result<Estimate, CameraError> {
         let view = self.scene.camera.view(size)?;
-        Ok(self.through(&view, point, samples, seed))
+        Ok(self.through(&view, point, samples, seed, &Cancel::never()))
+    }
+
+    /// The mean alone, with a cancel that is asked before each path. Zero if the camera cannot see; nonsense if cancelled.
+    pub(super) fn mean(
+        &self,
+        size: [u32; 2],
+        point: [f64; 2],
+        samples: u32,
+        seed: u64,
+        cancel: &Cancel,
+    ) -> [f64; 3] {
+        let Ok(view) = self.scene.camera.view(size) else {
+            return [0.0; 3];
+        };
+        self.through(&view, point, samples, seed, cancel).mean
     }
 
     /// [`NullCollision::estimate`] through the centres of all pixels, row by row, in the calling thread's rayon pool.
@@ -107,17 +127,27 @@ impl<'a> NullCollision<'a> {
         let pixels = u64::from(size[0]) * u64::from(size[1]);
         Ok((0..pixels)
             .into_par_iter()
-            .map(|pixel| self.through(&view, centre(pixel), samples, seed))
+            .map(|pixel| self.through(&view, centre(pixel), samples, seed, &Cancel::never()))
             .collect())
     }
 
-    fn through(&self, view: &View, point: [f64; 2], samples: u32, seed: u64) -> Estimate {
+    fn through(
+        &self,
+        view: &View,
+        point: [f64; 2],
+        samples: u32,
+        seed: u64,
+        cancel: &Cancel,
+    ) -> Estimate {
         let ray: Ray = view.ray(point[0], point[1]);
         let place = point.map(|side| (side as f32).to_bits());
         let mut tally = Tally::default();
         let mut stretches = Vec::new();
         let mut radiance = vec![0.0; self.tracer.len()];
         for sample in 0..samples {
+            if cancel.is_cancelled() {
+                break;
+            }
             radiance.fill(0.0);
             let mut random = Stream::new(seed, place, sample);
             self.tracer

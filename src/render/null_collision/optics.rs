@@ -15,8 +15,13 @@ pub(super) struct Local {
     pub(super) sigma_a: f64,
     /// Scattering coefficient, 1/m.
     pub(super) sigma_s: f64,
-    /// Emission coefficient j, W m⁻³ sr⁻¹ nm⁻¹: of the soot that absorbs, and of whatever glows without.
-    pub(super) emission: f64,
+}
+
+impl Local {
+    /// Extinction, 1/m.
+    pub(super) fn extinction(&self) -> f64 {
+        self.sigma_a + self.sigma_s
+    }
 }
 
 /// What a point of the medium holds.
@@ -136,17 +141,25 @@ impl Optics {
 
     /// The one place that says what a point of the medium does to light of a wavelength, given by its index.
     ///
-    /// Whatever is added here must also show in [`Optics::extinction`] and [`Optics::glow`].
+    /// Whatever is added here or to [`Optics::emission`] must also show in [`Optics::extinction`] and [`Optics::glow`].
     pub(super) fn local(&self, node: usize, place: &Place) -> Local {
         let node = &self.nodes[node];
-        let sigma_a = node.absorption * place.soot;
         Local {
-            sigma_a,
+            sigma_a: node.absorption * place.soot,
             sigma_s: node.scattering(place),
-            emission: match node.radicals {
-                Some(emission) => emission * place.flame,
-                None => sigma_a * blackbody::spectral_radiance(node.lambda_nm, place.kelvin),
-            },
+        }
+    }
+
+    /// Emission coefficient j there, W m⁻³ sr⁻¹ nm⁻¹ (of radicals W m⁻³ sr⁻¹): of the soot that absorbs, and of whatever
+    /// glows without.
+    pub(super) fn emission(&self, node: usize, place: &Place) -> f64 {
+        let node = &self.nodes[node];
+        match node.radicals {
+            Some(emission) => emission * place.flame,
+            None => {
+                let sigma_a = node.absorption * place.soot;
+                sigma_a * blackbody::spectral_radiance(node.lambda_nm, place.kelvin)
+            }
         }
     }
 
@@ -192,7 +205,7 @@ impl Optics {
     /// How bright a point is in comparison with others, W m⁻³ sr⁻¹: the soot by its emission where the eye sees best.
     pub(super) fn glow(&self, place: &Place) -> f64 {
         let soot = match self.nodes.get(self.brightest) {
-            Some(_) => NODE_NM * self.local(self.brightest, place).emission,
+            Some(_) => NODE_NM * self.emission(self.brightest, place),
             None => 0.0,
         };
         let parts = self.nodes.iter().filter_map(|node| node.radicals);

@@ -21,11 +21,11 @@ pub struct Params {
     pub max_reflections: u32,
     /// What shines from all sides.
     pub environment: Environment,
-    /// Collisions that each flight spends where the medium glows, beyond those that extinction asks for: more make a
-    /// path dearer and its light less noisy. 0 or more.
+    /// Collisions that each flight whose light counts spends where the medium glows, beyond those that extinction asks for:
+    /// more make a path dearer and its light less noisy. 0 or more.
     pub emission_points: f64,
-    /// The same in proportion to extinction, on flights that may still be scattered, which about two in five of them then
-    /// are, however thin the medium. Without, light that is rarely scattered is rarely seen, and the few paths that see it
+    /// So many collisions in proportion to extinction, if it asks for fewer, on flights that may still be scattered, which
+    /// about two in five of them then are, however thin the medium. Without, light that is rarely scattered is rarely seen, and the few paths that see it
     /// do not show how uncertain their mean is. 0 or more; with 0 light is scattered as often as in nature.
     pub scattering_points: f64,
 }

@@ -13,12 +13,10 @@ use crate::scene::{Medium, Scene};
 use crate::spectral::Wavelengths;
 
 use super::bricks::{self, Bounds};
-use super::optics::{Local, Optics, Place};
+use super::light::{Collision, Light};
+use super::optics::{Optics, Place};
 use super::params::Params;
 use super::surfaces::{self, Surfaces};
-
-/// A path whose heaviest weight is below this plays roulette for going on.
-const ROULETTE: f64 = 1e-3;
 
 /// Scatterings for each flight that [`Params::scattering_points`] see to: e^{−1/2} of all flights stay unscattered.
 const SCATTERED: f64 = 0.5;
@@ -34,8 +32,6 @@ pub(super) struct Tracer<'a> {
     environment: Vec<f64>,
     emission_points: f64,
     scattering_points: f64,
-    /// Least probability of scattering at a collision where there is any.
-    least_odds: f64,
     surfaces: Surfaces<'a>,
 }
 
@@ -47,6 +43,15 @@ enum Flight {
     Ended,
     /// Scattered, so far along the ray (m).
     Scattered(f64),
+}
+
+/// How often a flight collides.
+struct Rates {
+    /// Collisions for each unit of the bricks' glow, and of their extinction.
+    per_glow: f64,
+    per_depth: f64,
+    /// Least probability of scattering at a collision where there is any.
+    least_odds: f64,
 }
 
 impl<'a> Tracer<'a> {
@@ -66,12 +71,6 @@ impl<'a> Tracer<'a> {
             environment: wavelengths.nodes_nm.iter().map(shine).collect(),
             emission_points: params.emission_points.max(0.0),
             scattering_points: params.scattering_points.max(0.0),
-            least_odds: if params.scattering_points > 0.0 {
-                let points = params.emission_points.max(0.0) + params.scattering_points;
-                SCATTERED / points.max(1.0)
-            } else {
-                0.0
-            },
             surfaces: Surfaces::new(&scene.stage, params.max_reflections),
             optics,
         }
@@ -86,12 +85,8 @@ impl<'a> Tracer<'a> {
         radiance: &mut [f64],
     ) {
         let count = self.optics.len();
-        let mut light = Light {
-            weights: Weights::new(count),
-            hero: ((random.uniform() * count as f64) as usize).min(count.saturating_sub(1)),
-            counts: self.min_bounces == 0,
-            radiance,
-        };
+        let hero = ((random.uniform() * count as f64) as usize).min(count.saturating_sub(1));
+        let mut light = Light::new(hero, self.min_bounces == 0, radiance);
         let mut ray = *ray;
         let mut bounces = 0;
         let mut reflections = 0;
@@ -115,10 +110,7 @@ impl<'a> Tracer<'a> {
                         continue;
                     }
                     if light.counts {
-                        let share = light.weights.share;
-                        for (n, shine) in self.environment.iter().enumerate() {
-                            light.radiance[n] += light.weights.value[n] * share * shine;
-                        }
+                        light.add(self.environment.iter().copied());
                     }
                     return;
                 }
@@ -153,17 +145,14 @@ impl<'a> Tracer<'a> {
             return Flight::Escaped;
         };
         bricks::stretches(self.medium, &local, range, stretches);
-        let glow = |bounds: &Bounds| bounds.glow;
-        let points_per_glow = self.points_per(self.emission_points, glow, stretches);
-        let points_per_depth = if may_scatter {
-            let extinction = |bounds: &Bounds| bounds.extinction;
-            self.points_per(self.scattering_points, extinction, stretches)
-        } else {
-            0.0
-        };
+        let Rates {
+            per_glow,
+            per_depth,
+            least_odds,
+        } = self.rates(light.counts, may_scatter, stretches);
         for stretch in &*stretches {
             let bounds = self.bounds[stretch.slot as usize];
-            let rate = bounds.extinction * (1.0 + points_per_depth) + points_per_glow * bounds.glow;
+            let rate = bounds.extinction * per_depth + per_glow * bounds.glow;
             if rate <= 0.0 {
                 continue;
             }
@@ -178,11 +167,12 @@ impl<'a> Tracer<'a> {
                 if place.soot <= 0.0 && place.flame <= 0.0 {
                     continue;
                 }
+                let collision = Collision { place, rate };
                 let scattered = if may_scatter {
                     let decision = random.uniform();
-                    light.collide(&self.optics, &place, rate, self.least_odds, decision)
+                    light.collide(&self.optics, &collision, least_odds, decision)
                 } else {
-                    light.pass(&self.optics, &place, rate);
+                    light.pass(&self.optics, &collision);
                     false
                 };
                 if !light.weights.survive(random) {
@@ -217,149 +207,34 @@ impl<'a> Tracer<'a> {
         self.optics.len()
     }
 
-    /// By how much a unit of `what` raises the rate of collisions, so that the flight has so many points more; 0 where
-    /// there is nothing of it.
-    fn points_per(&self, points: f64, what: impl Fn(&Bounds) -> f64, stretches: &[Stretch]) -> f64 {
-        let all: f64 = stretches
-            .iter()
-            .map(|stretch| what(&self.bounds[stretch.slot as usize]) * (stretch.to - stretch.from))
-            .sum();
-        let points = points / all;
-        if points.is_finite() { points } else { 0.0 }
-    }
-}
-
-/// What a path carries and has brought.
-struct Light<'a> {
-    weights: Weights,
-    /// The wavelength that decides.
-    hero: usize,
-    /// Whether what is met now has been scattered often enough on its way to the eye.
-    counts: bool,
-    radiance: &'a mut [f64],
-}
-
-impl Light<'_> {
-    /// A collision at which light may scatter; `decision` is a number in 0..1. Returns whether it does.
-    fn collide(
-        &mut self,
-        optics: &Optics,
-        place: &Place,
-        rate: f64,
-        least_odds: f64,
-        decision: f64,
-    ) -> bool {
-        let scattered = decision < odds(&optics.local(self.hero, place), rate, least_odds);
-        let share = self.weights.share;
-        for n in 0..optics.len() {
-            let local = optics.local(n, place);
-            let (value, density) = (&mut self.weights.value[n], &mut self.weights.density[n]);
-            if self.counts {
-                self.radiance[n] += *value * share * local.emission / rate;
-            }
-            let odds = odds(&local, rate, least_odds);
-            if scattered {
-                *value *= local.sigma_s / rate;
-                *density *= odds;
+    /// How often a flight along these stretches collides. What is taken up on the way wants points in proportion to it, and
+    /// a scattering that is rare wants places where it may happen; where the medium is deep, extinction alone gives them.
+    fn rates(&self, counts: bool, may_scatter: bool, stretches: &[Stretch]) -> Rates {
+        let sum = |what: fn(&Bounds) -> f64| -> f64 {
+            let of = |stretch: &Stretch| {
+                what(&self.bounds[stretch.slot as usize]) * (stretch.to - stretch.from)
+            };
+            stretches.iter().map(of).sum()
+        };
+        let (depth, glow) = (sum(|bounds| bounds.extinction), sum(|bounds| bounds.glow));
+        let of_glow = if counts { self.emission_points } else { 0.0 };
+        let of_depth = if may_scatter {
+            (self.scattering_points - depth).max(0.0)
+        } else {
+            0.0
+        };
+        let finite = |ratio: f64| if ratio.is_finite() { ratio } else { 0.0 };
+        // Where many collisions are expected, each must scatter the less: odds that were too high at all of them would let
+        // the weight of what comes through grow without bound.
+        Rates {
+            per_glow: finite(of_glow / glow),
+            per_depth: 1.0 + finite(of_depth / depth),
+            least_odds: if self.scattering_points > 0.0 {
+                SCATTERED / (depth + of_depth + of_glow).max(1.0)
             } else {
-                *value *= (rate - local.sigma_a - local.sigma_s) / rate;
-                *density *= 1.0 - odds;
-            }
+                0.0
+            },
         }
-        self.weights.weigh();
-        scattered
-    }
-
-    /// A collision at which scattered light is lost, with nothing to decide.
-    fn pass(&mut self, optics: &Optics, place: &Place, rate: f64) {
-        let share = self.weights.share;
-        for n in 0..optics.len() {
-            let local = optics.local(n, place);
-            let value = &mut self.weights.value[n];
-            if self.counts {
-                self.radiance[n] += *value * share * local.emission / rate;
-            }
-            *value *= (rate - local.sigma_a - local.sigma_s) / rate;
-        }
-    }
-}
-
-/// Probability that a wavelength in charge scatters at a collision that does not absorb, where it does at all no less
-/// than `least`. A rate below the extinction would make the rest negative: the weights stay right, so the probability only
-/// has to be one.
-fn odds(local: &Local, rate: f64, least: f64) -> f64 {
-    let null = (rate - local.sigma_a - local.sigma_s).abs();
-    if local.sigma_s > 0.0 {
-        (local.sigma_s / (local.sigma_s + null)).max(least)
-    } else {
-        0.0
-    }
-}
-
-/// What a path has been through: for each wavelength the product of what physics says, and of how probable the
-/// decisions would have been had it been in charge. Both are densities of the same path, up to a common factor.
-struct Weights {
-    value: Vec<f64>,
-    density: Vec<f64>,
-    /// What turns a value into a weight: one over the mean density.
-    share: f64,
-}
-
-impl Weights {
-    fn new(count: usize) -> Self {
-        Self {
-            value: vec![1.0; count],
-            density: vec![1.0; count],
-            share: 1.0,
-        }
-    }
-
-    /// Finds the share after a change of the densities.
-    fn weigh(&mut self) {
-        self.share = self.density.len() as f64 / self.density.iter().sum::<f64>();
-    }
-
-    /// A turn by an angle of this cosine, drawn from the phase function of the wavelength in charge: each wavelength's
-    /// value and density take their own phase function's value, over that one's.
-    fn turn(&mut self, optics: &Optics, hero: usize, cosine: f64) {
-        let drawn = optics.phase(hero);
-        for n in 0..self.value.len() {
-            let own = optics.phase(n);
-            // Where all are one, nothing is rounded.
-            if own != drawn {
-                let ratio = own.value(cosine) / drawn.value(cosine);
-                self.value[n] *= ratio;
-                self.density[n] *= ratio;
-            }
-        }
-        self.weigh();
-    }
-
-    /// Takes out the common factor, so that long paths do not underflow.
-    fn normalise(&mut self) {
-        for number in self.value.iter_mut().chain(&mut self.density) {
-            *number *= self.share;
-        }
-        self.share = 1.0;
-    }
-
-    /// Plays roulette if all weights are small; whether the path goes on.
-    fn survive(&mut self, random: &mut Stream) -> bool {
-        let heaviest = self
-            .value
-            .iter()
-            .fold(0.0, |most: f64, value| most.max(value.abs()));
-        let heaviest = heaviest * self.share;
-        if heaviest >= ROULETTE {
-            return true;
-        }
-        if random.uniform() * ROULETTE >= heaviest {
-            return false;
-        }
-        for value in &mut self.value {
-            *value *= ROULETTE / heaviest;
-        }
-        true
     }
 }
 
@@ -395,22 +270,5 @@ mod tests {
             let off = (mean - asymmetry * before).length();
             assert!(off < 5.0 / f64::from(count).sqrt(), "g {asymmetry}: {off}");
         }
-    }
-
-    #[test]
-    fn roulette_keeps_the_mean() {
-        let mut random = Stream::new(2, [0, 0], 0);
-        let count = 100_000;
-        let small = 0.2 * ROULETTE;
-        let mut sum = 0.0;
-        for _ in 0..count {
-            let mut weights = Weights::new(2);
-            weights.value = vec![small, 0.5 * small];
-            if weights.survive(&mut random) {
-                sum += weights.value[1];
-            }
-        }
-        let mean = sum / f64::from(count) / (0.5 * small);
-        assert!((mean - 1.0).abs() < 0.04, "{mean}");
     }
 }

@@ -25,7 +25,7 @@ use crate::scene::{
 use crate::volume::{self, Border, Grid, Producer, Volume, procedural};
 
 /// A volume as it opens, with particles of this radius (nm), seen from in front in a square picture.
-fn scene(volume: Volume, radius_nm: f64, asymmetry: Option<f64>) -> Scene {
+pub(in crate::render) fn scene(volume: Volume, radius_nm: f64, asymmetry: Option<f64>) -> Scene {
     let preset = volume::preset(Producer::Auto, &volume);
     let placement = Placement {
         up: preset.up,
@@ -57,7 +57,7 @@ fn scene(volume: Volume, radius_nm: f64, asymmetry: Option<f64>) -> Scene {
     }
 }
 
-fn plan(scene: &Scene) -> Plan {
+pub(in crate::render) fn plan(scene: &Scene) -> Plan {
     let settings = Settings {
         size: [24, 24],
         step_voxels: 0.5,
