@@ -38,9 +38,14 @@ pub fn xyz_from_xy([x, y]: [f64; 2]) -> DVec3 {
 
 /// The matrix from linear Rec. 709 to XYZ; white (1, 1, 1) has Y = 1.
 pub fn xyz_from_rgb() -> DMat3 {
-    let [red, green, blue] = PRIMARIES_XY.map(xyz_from_xy);
+    xyz_from_primaries(PRIMARIES_XY, WHITE_XY)
+}
+
+/// The matrix to XYZ from linear light of primaries with these chromaticities x, y; (1, 1, 1) is this white with Y = 1.
+pub(super) fn xyz_from_primaries(primaries_xy: [[f64; 2]; 3], white_xy: [f64; 2]) -> DMat3 {
+    let [red, green, blue] = primaries_xy.map(xyz_from_xy);
     let primaries = DMat3::from_cols(red, green, blue);
-    let scale = primaries.inverse() * xyz_from_xy(WHITE_XY);
+    let scale = primaries.inverse() * xyz_from_xy(white_xy);
     primaries * DMat3::from_diagonal(scale)
 }
 
