@@ -15,7 +15,8 @@
 //!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written
 //!  6 project      all that a person can set: the scene file, --set, presets
 //!  5 render       THE CORE: plan and tables; fields of scattered, thrown and bent light; ways, kernel and march; film,
-//!                 passes, develop; the unbiased reference. Headless, no clock, no global state
+//!                 passes, develop; the unbiased reference; what effects cost. Headless, no global state, and no clock but
+//!                 to tell what work took
 //!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot and how it bends light, Camera,
 //!                 Stage, wavelength sets
 //!  3 volume       grids in memory and on disk, field mappings, the built-in flames

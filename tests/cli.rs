@@ -172,6 +172,17 @@ fn statistics_have_the_keys_that_scripts_read() {
     assert_eq!(stats["threads"], 2);
     assert!(stats["samples"].as_u64().unwrap() > 0);
     let plan = stats["plan"].as_array().unwrap();
+    for row in plan {
+        let keys = [
+            "effect",
+            "switch",
+            "state",
+            "bound_de",
+            "cost_seconds",
+            "reason",
+        ];
+        assert!(keys.iter().all(|key| row.get(key).is_some()), "{row}");
+    }
     let states: Vec<_> = plan
         .iter()
         .map(|it| {
@@ -185,12 +196,15 @@ fn statistics_have_the_keys_that_scripts_read() {
         states,
         [
             ("emission-absorption", "on"),
+            ("smoke", "off"),
             ("lines", "off"),
             ("chemiluminescence", "off"),
-            ("scattering", "off"),
-            ("refraction", "off"),
+            ("scattering", "on"),
+            ("scattering_orders", "off"),
+            ("refraction", "on"),
             ("dispersion", "off"),
             ("fire_light", "off"),
+            ("wavelengths", "on"),
         ]
     );
     assert!(

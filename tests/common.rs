@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 
 use glam::{DAffine3, DVec3, IVec3};
 use sootlight::project::{Job, Project};
-use sootlight::render::Settings;
+use sootlight::render::{Settings, Switch};
 use sootlight::scene::{Camera, Scene};
 use sootlight::volume::{self, Border, Grid, Limits, Producer, Volume};
 
@@ -39,6 +39,8 @@ pub(crate) fn golden(name: &str) -> Vec<Vec<f64>> {
 pub(crate) fn physical() -> Project {
     let mut project = Project::default();
     project.volume.producer = Producer::Physical;
+    // What is compared with laws along a line is seen along a line.
+    project.effects.refraction = Switch::Off;
     project
 }
 

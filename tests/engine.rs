@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 
 use sootlight::engine::{Engine, Generation, News, Picture};
 use sootlight::project::Job;
-use sootlight::render::{Cancel, render_still};
+use sootlight::render::plan::Effect;
+use sootlight::render::{Cancel, Switch, render_still};
 
 use super::common;
 
@@ -59,6 +60,42 @@ fn a_submitted_job_becomes_the_picture_that_a_still_has() {
 }
 
 #[test]
+fn costs_come_after_the_picture_and_whoever_looks_closer_sees_what_was_decided() {
+    let (engine, _) = engine();
+    let size = [64, 96];
+    let mut picture = Picture::new(size);
+    let job = numbered(1, size);
+    let generation = engine.submit(job.clone());
+    wait(&engine, &mut picture, |picture| {
+        assert!(picture.progress.costs.is_none() || picture.progress.finished);
+        picture.progress.costs.is_some()
+    });
+    let progress = &picture.progress;
+    let costs = progress.costs.clone().unwrap();
+    let cost = |effect| costs.iter().find(|it| it.effect == effect);
+    assert!(
+        cost(Effect::Scattering).is_some_and(|it| it.seconds > 0.0),
+        "{costs:?}"
+    );
+    for nothing in [Effect::Soot, Effect::Lines, Effect::FireLight] {
+        assert!(cost(nothing).is_none(), "{costs:?}");
+    }
+    let packed = engine.scene().unwrap();
+    assert_eq!(packed.generation, generation);
+    let decided = job.settings.effects.as_decided(&progress.decisions);
+    assert_eq!(packed.effects, decided);
+    assert!(![decided.scattering, decided.refraction, decided.lines].contains(&Switch::Auto));
+
+    // A submit while costs are measured is the next picture; nothing of them comes after it.
+    engine.submit(numbered(2, size));
+    wait(&engine, &mut picture, |picture| picture.progress.finished);
+    let newest = engine.submit(numbered(3, size));
+    wait(&engine, &mut picture, |picture| {
+        picture.generation() == Some(newest) && picture.progress.finished
+    });
+}
+
+#[test]
 fn no_stale_tile_lands_in_two_hundred_restarts() {
     let (engine, _) = engine();
     let size = [96, 128];
@@ -85,10 +122,13 @@ fn no_stale_tile_lands_in_two_hundred_restarts() {
 
     // And what comes to rest is the last job's picture, bit for bit.
     let last = numbered(3, size);
-    let still = render_still(&last.scene(None), &last.settings, &Cancel::never(), &|_| {}).unwrap();
-    engine.submit(last);
+    engine.submit(last.clone());
     let mut picture = Picture::new(size);
     wait(&engine, &mut picture, |picture| picture.progress.finished);
+    // What is at the border of being seen stays as it was on the way.
+    let mut settings = last.settings;
+    settings.effects = settings.effects.as_decided(&picture.progress.decisions);
+    let still = render_still(&last.scene(None), &settings, &Cancel::never(), &|_| {}).unwrap();
     assert_eq!(*picture.film(), still.film);
 }
 

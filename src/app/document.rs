@@ -12,6 +12,7 @@ use crate::project::{
     Backdrops, CameraSettings, Job, Project, ProjectError, ViewSettings, VolumeSettings,
 };
 use crate::render::Facts;
+use crate::render::costs::Cost;
 use crate::render::develop::Metering;
 use crate::render::plan::Decision;
 use crate::scene::{Camera, flame};
@@ -34,6 +35,8 @@ pub struct Document {
     pub metering: Option<Metering>,
     /// Which effects the newest picture is computed with, and why; empty while nobody has decided.
     pub decisions: Vec<Decision>,
+    /// What effects cost in it; empty while that is not measured.
+    pub costs: Vec<Cost>,
     /// What was found out about it.
     pub facts: Facts,
     open: Option<Arc<OpenVolume>>,
@@ -82,6 +85,7 @@ impl Document {
             fixed_size: None,
             metering: None,
             decisions: Vec::new(),
+            costs: Vec::new(),
             facts: Facts::default(),
             open: None,
             history: History::default(),

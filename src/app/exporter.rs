@@ -252,7 +252,7 @@ fn export(
         .chain(picture)
         .collect();
     check_target(&order.path, &sources)?;
-    let still = Still::new(&order.project, &order.volume, order.metering)?;
+    let mut still = Still::new(&order.project, &order.volume, order.metering)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads((cores / 2).max(1))
@@ -260,6 +260,9 @@ fn export(
         .build()?;
     pool.install(|| {
         let scene = still.scene();
+        if let Some(on_show) = order.effects {
+            still = still.showing(&scene, on_show);
+        }
         let frame = still.render(&scene, cancel, progress)?;
         let written = still.write(&frame, order.format, &order.path, cancel)?;
         Ok(written.flaws)

@@ -56,7 +56,9 @@ impl App {
                     // What was measured on a coarse picture is about to be measured again.
                     let metering = self.document.metering;
                     let metering = metering.filter(|_| !self.meter.is_coarse());
-                    if let Some(order) = wish.order(&self.document, metering) {
+                    if let Some(order) =
+                        wish.order(&self.document, metering, self.effects_on_show())
+                    {
                         self.exporter.begin(order);
                     }
                 }

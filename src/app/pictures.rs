@@ -7,7 +7,8 @@ use super::{App, Document};
 use crate::engine::picture::Progress;
 use crate::engine::{Generation, Picture};
 use crate::project::Job;
-use crate::render::Facts;
+use crate::render::plan::Effect;
+use crate::render::{Effects, Facts};
 
 /// So long a changed job waits for the first picture of the one before it.
 const LONGEST_WAIT: Duration = Duration::from_millis(250);
@@ -49,6 +50,15 @@ impl App {
             _ => false,
         };
         of_the_open_volume && self.renders_newest() && self.picture.progress.done > 0
+    }
+
+    /// Which effects are on show, each on or off, if that is known of the document as it stands.
+    pub(super) fn effects_on_show(&self) -> Option<Effects> {
+        let submitted = self.submitted.as_ref()?;
+        let decisions = &self.picture.progress.decisions;
+        let is_of_it = self.document.last_job() == Some(&submitted.job) && self.renders_newest();
+        (is_of_it && !decisions.is_empty())
+            .then(|| submitted.job.settings.effects.as_decided(decisions))
     }
 
     /// Takes in what the engine rendered.
@@ -113,7 +123,13 @@ fn learn(document: &mut Document, progress: &Progress) {
     if !progress.decisions.is_empty() && progress.decisions != document.decisions {
         document.decisions.clone_from(&progress.decisions);
     }
-    let is_on = |effect: &str| {
+    // What another picture took says nothing of this one.
+    match &progress.costs {
+        Some(costs) if *costs != document.costs => document.costs.clone_from(costs),
+        Some(_) => {}
+        None => document.costs.clear(),
+    }
+    let is_on = |effect: Effect| {
         let decided = document.decisions.iter().find(|it| it.effect == effect);
         decided.is_some_and(|decision| decision.on)
     };
@@ -121,7 +137,15 @@ fn learn(document: &mut Document, progress: &Progress) {
         |found: Option<f64>, known: Option<f64>, effect| found.or(known).filter(|_| is_on(effect));
     let (found, known) = (progress.facts, document.facts);
     document.facts = Facts {
-        largest_shift_px: newer(found.largest_shift_px, known.largest_shift_px, "refraction"),
-        orders_left_out: newer(found.orders_left_out, known.orders_left_out, "scattering"),
+        largest_shift_px: newer(
+            found.largest_shift_px,
+            known.largest_shift_px,
+            Effect::Refraction,
+        ),
+        orders_left_out: newer(
+            found.orders_left_out,
+            known.orders_left_out,
+            Effect::Scattering,
+        ),
     };
 }

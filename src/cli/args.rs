@@ -31,6 +31,10 @@ pub(super) enum Sub {
     Info {
         #[command(flatten)]
         project: ProjectArgs,
+        /// Tell as well which effects a picture would be computed with, why, and what each costs in seconds: measured,
+        /// so it takes about as long as a picture.
+        #[arg(long)]
+        plan: bool,
     },
     /// Write emission, absorption, scattering and refractive index against wavelength, as CSV.
     ///

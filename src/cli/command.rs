@@ -18,7 +18,7 @@ pub(super) enum Command {
     /// Render a still.
     Render(Box<Render>),
     /// Tell about a volume.
-    Info(Box<Project>),
+    Info(Box<Info>),
     /// Tabulate the optics of a place.
     Spectrum(Box<Spectrum>),
 }
@@ -31,6 +31,14 @@ pub(super) struct Render {
     pub(super) format: Format,
     pub(super) threads: usize,
     pub(super) stats: Option<PathBuf>,
+}
+
+/// A volume to tell about.
+#[derive(Debug)]
+pub(super) struct Info {
+    pub(super) project: Project,
+    /// Whether to tell as well which effects would be computed.
+    pub(super) plan: bool,
 }
 
 /// The optics of a place to tabulate.
@@ -59,8 +67,11 @@ impl Command {
                 refuse_mistyped_command(&args.project.files)?;
                 project(&args.project, |_| {}).map(|project| Self::Window(Box::new(project)))
             }
-            Some(Sub::Info { project: args }) => {
-                project(&args, |_| {}).map(|project| Self::Info(Box::new(project)))
+            Some(Sub::Info {
+                project: args,
+                plan,
+            }) => {
+                project(&args, |_| {}).map(|project| Self::Info(Box::new(Info { project, plan })))
             }
             Some(Sub::Render(args)) => {
                 Render::new(args).map(|render| Self::Render(Box::new(render)))

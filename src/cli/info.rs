@@ -2,8 +2,10 @@
 
 use std::fmt::Write as _;
 
+use super::command::Info;
 use super::error::CliError;
-use super::{load, output};
+use super::table::Table;
+use super::{load, output, plan};
 use crate::math::Aabb;
 use crate::project::{Job, Project};
 use crate::scene::flame::world_bounds;
@@ -11,8 +13,14 @@ use crate::volume::{
     FieldKind, GridSummary, Producer, Summary, UpAxis, Volume, figures, summarise,
 };
 
-/// Tells what was found, then fails if nothing of it can be rendered.
-pub(super) fn run(project: &Project) -> Result<(), CliError> {
+impl Info {
+    /// Tells what was found, then fails if nothing of it can be rendered.
+    pub(super) fn run(&self) -> Result<(), CliError> {
+        told(&self.project, self.plan)
+    }
+}
+
+fn told(project: &Project, with_plan: bool) -> Result<(), CliError> {
     let volume = load::volume(project)?;
     let summary = summarise(&volume, project.volume.producer);
     let mut text = sources(&summary, project);
@@ -21,6 +29,9 @@ pub(super) fn run(project: &Project) -> Result<(), CliError> {
     let job = project.job(&volume);
     if let Ok(job) = &job {
         text.push_str(&made_of_it(job, &volume));
+        if with_plan {
+            text.push_str(&plan::told(job));
+        }
     } else {
         let notes = summary
             .notes
@@ -222,55 +233,5 @@ fn bytes(bytes: u64) -> String {
         b if b >= 1e6 => format!("{:.1} MB", b / 1e6),
         b if b >= 1e3 => format!("{:.1} kB", b / 1e3),
         b => format!("{b:.0} B"),
-    }
-}
-
-/// Rows of text in columns as wide as their widest cell.
-struct Table<const N: usize> {
-    rows: Vec<[String; N]>,
-}
-
-impl<const N: usize> Table<N> {
-    fn new(head: &[&str; N]) -> Self {
-        Self {
-            rows: vec![head.map(str::to_owned)],
-        }
-    }
-
-    fn row(&mut self, cells: [String; N]) {
-        self.rows.push(cells);
-    }
-}
-
-impl<const N: usize> std::fmt::Display for Table<N> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let width = |column: usize| {
-            self.rows
-                .iter()
-                .map(|row| row[column].chars().count())
-                .max()
-                .unwrap_or(0)
-        };
-        let widths: [usize; N] = std::array::from_fn(width);
-        for row in &self.rows {
-            let cells = row
-                .iter()
-                .zip(widths)
-                .map(|(cell, width)| format!("{cell:width$}"));
-            writeln!(f, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
-        }
-        Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn columns_are_as_wide_as_their_widest_cell() {
-        let mut table = Table::new(&["a", "bc"]);
-        table.row(["× ×".to_owned(), String::new()]);
-        assert_eq!(table.to_string(), "a    bc\n× ×\n");
     }
 }

@@ -8,9 +8,11 @@ mod error;
 mod info;
 mod load;
 mod output;
+mod plan;
 mod render;
 mod spectrum;
 mod stats;
+mod table;
 mod window;
 
 use std::ffi::OsString;
@@ -50,7 +52,7 @@ impl Command {
         match self {
             Self::Window(project) => window::run(*project),
             Self::Render(render) => render.run(),
-            Self::Info(project) => info::run(&project),
+            Self::Info(info) => info.run(),
             Self::Spectrum(spectrum) => spectrum.run(),
         }
     }

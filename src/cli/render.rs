@@ -1,13 +1,14 @@
 //! `sootlight render`: load, bake, render, write, each on the clock.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::command::Render;
 use super::error::CliError;
 use super::stats::{Seconds, Stats};
 use super::{load, output};
 use crate::export::{self, ExportError, Still};
-use crate::render::{Cancel, Frame};
+use crate::render::costs::costs;
+use crate::render::{Cancel, Frame, Plan};
 use crate::scene::Scene;
 
 impl Render {
@@ -30,7 +31,12 @@ impl Render {
         let (volume, load) = timed(|| pool.install(|| load::volume(&self.project)));
         let still = Still::new(&self.project, &volume?, None).map_err(CliError::project)?;
         let (scene, bake) = timed(|| pool.install(|| still.scene()));
-        let (frame, render) = timed(|| pool.install(|| with_a_bar(&still, &scene)));
+        let planned = || {
+            let plan = still.plan(&scene);
+            let frame = with_a_bar(&still, &scene, &plan);
+            (plan, frame)
+        };
+        let ((plan, frame), render) = timed(|| pool.install(planned));
         let not_written = |error| CliError::failed("the picture was not written", error);
         let frame = frame.map_err(not_written)?;
         let (written, write) = timed(|| {
@@ -46,6 +52,9 @@ impl Render {
         };
         if let Some(path) = &self.stats {
             let (threads, metering, flaws) = (self.threads, &metering, &flaws);
+            let (settings, never) = (&still.job.settings, Cancel::never());
+            let budget = MEASURING + Duration::from_secs_f64(MEASURING_SHARE * render);
+            let costs = pool.install(|| costs(&scene, settings, &plan, budget, &never));
             let stats = Stats {
                 seconds,
                 threads,
@@ -53,6 +62,7 @@ impl Render {
                 job: &still.job,
                 scene: &scene,
                 frame: &frame,
+                costs: &costs.unwrap_or_default(),
                 metering,
                 view: &self.project.view(),
                 flaws,
@@ -75,9 +85,13 @@ impl Render {
     }
 }
 
-fn with_a_bar(still: &Still, scene: &Scene) -> Result<Frame, ExportError> {
+/// So long the costs of effects are measured for statistics at most, and that share of the time that the picture took.
+const MEASURING: Duration = Duration::from_secs(1);
+const MEASURING_SHARE: f64 = 0.1;
+
+fn with_a_bar(still: &Still, scene: &Scene, plan: &Plan) -> Result<Frame, ExportError> {
     let bar = output::progress_bar();
-    let frame = still.render(scene, &Cancel::never(), &|share| {
+    let frame = still.render_planned(scene, plan, &Cancel::never(), &|share| {
         output::advance(&bar, share);
     });
     bar.finish_and_clear();

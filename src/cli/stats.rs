@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::display::Curve;
 use crate::project::{Job, Project};
+use crate::render::costs::Cost;
 use crate::render::develop::{Metering, ViewParams};
 use crate::render::{Flaws, Frame};
 use crate::scene::stage::Pattern;
@@ -27,6 +28,7 @@ pub(super) struct Stats<'a> {
     pub(super) job: &'a Job,
     pub(super) scene: &'a Scene,
     pub(super) frame: &'a Frame,
+    pub(super) costs: &'a [Cost],
     pub(super) metering: &'a Metering,
     pub(super) view: &'a ViewParams,
     pub(super) flaws: &'a Flaws,
@@ -76,9 +78,14 @@ impl Stats<'_> {
 
     fn plan(&self) -> Value {
         let decisions = self.frame.decisions.iter().map(|decision| {
+            let cost = self.costs.iter().find(|it| it.effect == decision.effect);
             json!({
-                "effect": decision.effect,
+                "effect": decision.effect.name(),
+                "switch": decision.switch,
                 "state": if decision.on { "on" } else { "off" },
+                "bound_de": decision.bound.map(finite),
+                // What it takes of the picture's time, or would take; null where that was not measured to the end.
+                "cost_seconds": cost.filter(|it| !it.at_least).map(|it| finite(it.seconds)),
                 "reason": decision.reason,
             })
         });

@@ -22,9 +22,11 @@ use rayon::ThreadPool;
 pub use picture::Picture;
 
 use crate::project::Job;
+use crate::render::costs::{Cost, costs};
 use crate::render::plan::Decision;
 use crate::render::{Cancel, Effects, Facts, Flaws, Pass, Plan, Tile, pass, render_pass};
 use crate::scene::Scene;
+use crate::volume::Volume;
 
 /// Which submit something belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -70,6 +72,8 @@ pub enum News {
     },
     /// All passes are whole.
     Finished,
+    /// What each effect costs or would cost in this picture, measured once there was nothing else to do.
+    Costs(Vec<Cost>),
     /// A worker failed; the words say how.
     Failed(String),
 }
@@ -83,7 +87,7 @@ pub struct Packed {
     pub scene: Scene,
     /// Size of its picture in pixels.
     pub size: [u32; 2],
-    /// Which effects were asked for.
+    /// Which effects are computed: none is left to be decided, so that who looks closer looks at what is on show.
     pub effects: Effects,
 }
 
@@ -92,6 +96,16 @@ pub struct Engine {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
 }
+
+/// What a job leaves to the next one.
+struct Before {
+    scene: Scene,
+    volume: Arc<Volume>,
+    decisions: Vec<Decision>,
+}
+
+/// So long costs are measured at most, beside the picture's own fields.
+const MEASURING: Duration = Duration::from_millis(1500);
 
 struct Shared {
     /// Raised by each submit; what a [`Cancel`] compares with.
@@ -216,13 +230,13 @@ impl Shared {
 
     /// The engine's thread: waits for jobs until told to stop.
     fn serve(&self, pool: &ThreadPool) {
-        let mut before: Option<Scene> = None;
+        let mut before: Option<Before> = None;
         while let Some((generation, job, submitted)) = self.next() {
             let outcome = catch_unwind(AssertUnwindSafe(|| {
                 pool.install(|| self.render(generation, &job, submitted, before.as_ref()))
             }));
             match outcome {
-                Ok(scene) => before = Some(scene),
+                Ok(done) => before = Some(done),
                 Err(panic) => {
                     before = None;
                     *lock(&self.packed) = None;
@@ -249,26 +263,29 @@ impl Shared {
         }
     }
 
-    /// Packs the medium, then runs pass after pass until done or overtaken. Returns the scene for reuse.
+    /// Packs the medium, then runs pass after pass until done or overtaken. Returns what the next job may use.
     fn render(
         &self,
         generation: Generation,
         job: &Job,
         submitted: Instant,
-        before: Option<&Scene>,
-    ) -> Scene {
+        before: Option<&Before>,
+    ) -> Before {
         let cancel = Cancel::when_passed(Arc::clone(&self.current), generation.0);
         let begun = Instant::now();
-        let scene = job.scene(before);
+        let scene = job.scene(before.map(|before| &before.scene));
+        // Of another volume nothing says what was on show of this one.
+        let decided = before.filter(|before| Arc::ptr_eq(&before.volume, &job.volume));
+        let decided = decided.map_or(&[][..], |before| &before.decisions);
+        let plan = Plan::after(&scene, &job.settings, decided);
         let replaced = lock(&self.packed).replace(Packed {
             generation,
             scene: scene.clone(),
             size: job.settings.size,
-            effects: job.settings.effects,
+            effects: job.settings.effects.as_decided(&plan.decisions),
         });
         // What may be the last of an old volume is freed outside the lock.
         drop(replaced);
-        let plan = Plan::new(&scene, &job.settings);
         let passes = pass::ladder(&job.settings, pass::Audience::Window);
         let started = News::Started {
             passes: passes.clone(),
@@ -278,13 +295,37 @@ impl Shared {
             decisions: plan.decisions.clone(),
         };
         self.publish(generation, started);
+        if self.render_passes(generation, &scene, &plan, &passes, submitted, &cancel) {
+            self.publish(generation, News::Finished);
+            let measured = costs(&scene, &job.settings, &plan, MEASURING, &cancel);
+            if let Some(costs) = measured {
+                self.publish(generation, News::Costs(costs));
+            }
+        }
+        Before {
+            scene,
+            volume: Arc::clone(&job.volume),
+            decisions: plan.decisions,
+        }
+    }
+
+    /// Runs pass after pass; `false` if overtaken.
+    fn render_passes(
+        &self,
+        generation: Generation,
+        scene: &Scene,
+        plan: &Plan,
+        passes: &[Pass],
+        submitted: Instant,
+        cancel: &Cancel,
+    ) -> bool {
         for (index, pass) in passes.iter().enumerate() {
             let begun = Instant::now();
-            let whole = render_pass(&scene, &plan, pass, &cancel, &|tile| {
+            let whole = render_pass(scene, plan, pass, cancel, &|tile| {
                 self.publish(generation, News::Tile(tile));
             });
             if !whole || cancel.is_cancelled() {
-                return scene;
+                return false;
             }
             let took = begun.elapsed();
             self.publish(
@@ -297,8 +338,7 @@ impl Shared {
                 },
             );
         }
-        self.publish(generation, News::Finished);
-        scene
+        true
     }
 
     /// Adds to the outbox what still belongs to the current job, and wakes the window.

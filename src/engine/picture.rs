@@ -4,6 +4,7 @@
 use std::time::Duration;
 
 use super::{Generation, News, Update};
+use crate::render::costs::Cost;
 use crate::render::plan::Decision;
 use crate::render::{Facts, Film, Flaws, Pass, Tile};
 
@@ -54,6 +55,8 @@ pub struct Progress {
     pub decisions: Vec<Decision>,
     /// What has been found out about the picture so far.
     pub facts: Facts,
+    /// What effects cost, once that is measured.
+    pub costs: Option<Vec<Cost>>,
     /// What went wrong, if something did.
     pub failure: Option<String>,
 }
@@ -148,6 +151,7 @@ impl Picture {
                     .map_or(0, |pass| rays_of(pass, size));
             }
             News::Finished => progress.finished = true,
+            News::Costs(costs) => progress.costs = Some(costs),
             News::Failed(words) => progress.failure = Some(words),
         }
     }

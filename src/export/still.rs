@@ -11,7 +11,7 @@ use crate::colour::display::BakedView;
 use crate::project::ranges::{EXPOSURE_EV, HALF_SATURATION_CD_M2};
 use crate::project::{Darkness, Job, Project, ProjectError};
 use crate::render::develop::{Metering, flaws_of};
-use crate::render::{Cancel, Flaws, Frame, Settings, render_still};
+use crate::render::{Cancel, Effects, Flaws, Frame, Plan, Settings, render_planned};
 use crate::scene::Scene;
 use crate::volume::Volume;
 
@@ -65,6 +65,45 @@ impl Still {
         })
     }
 
+    /// With the effects that somebody has seen computed, none of which is left to be decided. What the still would decide
+    /// in the same way stays automatic in what is told of it; the rest is told as it was seen, so that the same picture
+    /// comes of it.
+    #[must_use]
+    pub fn showing(mut self, scene: &Scene, seen: Effects) -> Self {
+        let settings = &mut self.job.settings;
+        // How many wavelengths are enough is another matter for the numbers of a still.
+        let wavelengths = settings.effects.wavelengths;
+        let alone = Plan::new(scene, settings).decisions;
+        let alone = settings.effects.as_decided(&alone);
+        settings.effects = Effects {
+            wavelengths,
+            ..seen
+        };
+        let told = &mut self.project.effects;
+        for (told, alone, seen) in [
+            (&mut told.lines, alone.lines, seen.lines),
+            (
+                &mut told.chemiluminescence,
+                alone.chemiluminescence,
+                seen.chemiluminescence,
+            ),
+            (&mut told.scattering, alone.scattering, seen.scattering),
+            (
+                &mut told.scattering_orders,
+                alone.scattering_orders,
+                seen.scattering_orders,
+            ),
+            (&mut told.refraction, alone.refraction, seen.refraction),
+            (&mut told.dispersion, alone.dispersion, seen.dispersion),
+            (&mut told.fire_light, alone.fire_light, seen.fire_light),
+        ] {
+            if alone != seen {
+                *told = seen;
+            }
+        }
+        self
+    }
+
     /// Packs the medium and bakes the laws.
     pub fn scene(&self) -> Scene {
         self.job.scene(None)
@@ -80,8 +119,27 @@ impl Still {
         cancel: &Cancel,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Frame, ExportError> {
+        self.render_planned(scene, &self.plan(scene), cancel, progress)
+    }
+
+    /// Decides which effects are computed.
+    pub fn plan(&self, scene: &Scene) -> Plan {
+        Plan::new(scene, &self.job.settings)
+    }
+
+    /// [`Still::render`] after its plan, which whoever made it may go on using.
+    ///
+    /// # Errors
+    /// [`ExportError::Cancelled`].
+    pub fn render_planned(
+        &self,
+        scene: &Scene,
+        plan: &Plan,
+        cancel: &Cancel,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Frame, ExportError> {
         let settings: &Settings = &self.job.settings;
-        render_still(scene, settings, cancel, progress).ok_or(ExportError::Cancelled)
+        render_planned(scene, plan, settings, cancel, progress).ok_or(ExportError::Cancelled)
     }
 
     /// Develops, encodes and writes: the file is whole or not there.

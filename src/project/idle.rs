@@ -7,7 +7,7 @@ use super::job::Job;
 use crate::physics::moist_air::Edition;
 use crate::physics::soot::{Hold, SootModel};
 use crate::render::Switch;
-use crate::render::plan::Decision;
+use crate::render::plan::{Decision, Effect};
 use crate::scene::{FlameParams, Fuel};
 use crate::volume::FieldMap;
 
@@ -57,8 +57,9 @@ pub enum Control {
 }
 
 /// Why something that acts through an effect does not, as the words after its name.
-fn without(effect: &str, switch: Switch, decisions: &[Decision], nothing: &str) -> String {
+fn without(effect: Effect, switch: Switch, decisions: &[Decision], nothing: &str) -> String {
     let decided = decisions.iter().find(|it| it.effect == effect && !it.on);
+    let effect = effect.name();
     match (switch, decided) {
         (Switch::Off, _) => format!("{effect}, which is off: switch it on under Effects"),
         (_, Some(_)) => format!("{effect}, which is left out here: Effects says why"),
@@ -70,16 +71,22 @@ fn without(effect: &str, switch: Switch, decisions: &[Decision], nothing: &str) 
 /// there is none yet.
 pub fn why_idle(job: &Job, control: Control, decisions: &[Decision]) -> Option<String> {
     // What the plan leaves out makes no difference, whatever was asked for.
-    let is_left_out = |effect: &str| decisions.iter().any(|it| it.effect == effect && !it.on);
+    let is_left_out = |effect: Effect| decisions.iter().any(|it| it.effect == effect && !it.on);
     let mut flame = job.flame.clone();
-    flame.scattering = flame.scattering.filter(|_| !is_left_out("scattering"));
-    flame.bending = flame.bending.filter(|_| !is_left_out("refraction"));
-    let dark = is_left_out("fire_light") || job.settings.effects.fire_light == Switch::Off;
+    flame.scattering = flame
+        .scattering
+        .filter(|_| !is_left_out(Effect::Scattering));
+    flame.bending = flame.bending.filter(|_| !is_left_out(Effect::Refraction));
+    let dark = is_left_out(Effect::FireLight) || job.settings.effects.fire_light == Switch::Off;
     is_idle(job, &flame, dark, control).then(|| words(job, &flame, control, decisions))
 }
 
 fn is_none(map: Option<&FieldMap>, amount: f64) -> bool {
     map.is_none() || amount <= 0.0
+}
+
+fn bends_nothing(flame: &FlameParams) -> bool {
+    flame.bending.is_none() || flame.maps.temperature.is_none()
 }
 
 fn has_no_soot(flame: &FlameParams) -> bool {
@@ -97,16 +104,16 @@ fn words(job: &Job, flame: &FlameParams, control: Control, decisions: &[Decision
     let effects = &job.settings.effects;
     let scattering = || {
         without(
-            "scattering",
+            Effect::Scattering,
             effects.scattering,
             decisions,
             "there is none here",
         )
     };
     let refraction = || {
-        let nothing = "nothing behind the fire shows it: add a backdrop or a stage";
+        let nothing = "no field says how hot the gas is";
         // Nothing else keeps the plan from it.
-        without("refraction", effects.refraction, &[], nothing)
+        without(Effect::Refraction, effects.refraction, &[], nothing)
     };
     let words: &str = match control {
         Control::Fuel if flame.soot_model == SootModel::Chang => {
@@ -149,6 +156,9 @@ fn words(job: &Job, flame: &FlameParams, control: Control, decisions: &[Decision
             refraction()
         ),
         Control::RefractionGain => &format!("it acts through {}", refraction()),
+        Control::Dispersion if !bends_nothing(flame) => {
+            "only a backdrop shows it: choose one under Stage"
+        }
         Control::Dispersion => &format!("it is a part of {}", refraction()),
         Control::SmokeAlbedo if is_none(flame.maps.smoke.as_ref(), flame.smoke_amount) => {
             "there is no smoke"
@@ -157,7 +167,7 @@ fn words(job: &Job, flame: &FlameParams, control: Control, decisions: &[Decision
         Control::StageColour => &format!(
             "colours act through {}",
             without(
-                "fire_light",
+                Effect::FireLight,
                 effects.fire_light,
                 decisions,
                 "nothing is lit"
@@ -214,7 +224,9 @@ fn is_idle(job: &Job, flame: &FlameParams, dark: bool, control: Control) -> bool
             both.into_iter()
                 .all(|edition| same(&|f| f.air.edition = edition))
         }
-        Control::RefractionGain | Control::Dispersion => flame.bending.is_none(),
+        Control::RefractionGain => bends_nothing(flame),
+        // What is seen of the fire itself goes one way.
+        Control::Dispersion => bends_nothing(flame) || job.stage.backdrop.is_none(),
         Control::Asymmetry => no_soot || flame.scattering.is_none(),
         Control::SmokeAlbedo => {
             is_none(flame.maps.smoke.as_ref(), flame.smoke_amount) || flame.scattering.is_none()

@@ -11,7 +11,8 @@ use super::settings::{Project, SmokeSettings, Up};
 use super::stage::StageDefaults;
 use crate::math::Aabb;
 use crate::render::develop::ViewParams;
-use crate::render::{Flaws, Settings, SettingsError, Switch};
+use crate::render::plan::{OFF_BELOW, smoke_bound};
+use crate::render::{Effects, Flaws, Settings, SettingsError, Switch};
 use crate::scene::camera::FRAMING_FOV_DEG;
 use crate::scene::stage::Pattern;
 use crate::scene::{
@@ -19,7 +20,7 @@ use crate::scene::{
     Stage, flame,
 };
 use crate::volume::{
-    self, About, Assumption, FieldKind, FieldMaps, Preset, Producer, UpAxis, Volume,
+    self, About, Assumption, FieldKind, FieldMap, FieldMaps, Preset, Producer, UpAxis, Volume,
 };
 
 /// A picture to be made, cheap to clone. Jobs are equal if they give the same picture, bit for bit: so the window
@@ -132,11 +133,19 @@ impl Project {
             1.0
         };
         let air = Air::from(&self.air);
-        let bending = self.bending(&stage, &mut flaws);
-        if bending.is_some() {
-            air.gas(self.fuel.name)?;
+        let mut bending = self.bending(&mut flaws);
+        // Where nothing but the fire itself shows it, bent light is not worth an error.
+        let is_needed = self.effects.refraction == Switch::On || stage.shows_behind();
+        if bending.is_some()
+            && let Err(error) = air.gas(self.fuel.name)
+        {
+            if is_needed {
+                return Err(error.into());
+            }
+            flaws.add(format!("light is not bent: {error}"));
+            bending = None;
         }
-        let flame = FlameParams {
+        let mut flame = FlameParams {
             scattering: self.scattering(&maps),
             bending,
             maps,
@@ -147,11 +156,20 @@ impl Project {
             soot_hold: self.soot.hold,
             soot_amount: self.soot.amount * soot_yield,
             smoke_amount: self.smoke.amount,
+            smoke_left_out: None,
             glow,
             interpolation: self.render.interpolation,
             air,
         };
-        flame.check(volume)?;
+        flame.smoke_left_out = self.smoke_left_out(volume, &flame);
+        if let Err(error) = flame.check(volume) {
+            if is_needed || flame.bending.is_none() {
+                return Err(error.into());
+            }
+            flame.bending = None;
+            flame.check(volume)?;
+            flaws.add(format!("light is not bent: {error}"));
+        }
         Ok(Job {
             volume: Arc::clone(volume),
             flame,
@@ -215,13 +233,34 @@ impl Project {
         })
     }
 
-    /// How hot gas is to bend light: only where something shows it, unless it is asked for.
-    fn bending(&self, stage: &Stage, flaws: &mut Flaws) -> Option<Bending> {
-        let computed = match self.effects.refraction {
-            Switch::Off => false,
-            Switch::Auto => stage.shows_behind(),
-            Switch::On => true,
+    /// What smoke that is not worth packing would change at most, ΔE_ITP; `None` where it is to be packed, or there is none.
+    fn smoke_left_out(&self, volume: &Volume, flame: &FlameParams) -> Option<f64> {
+        let smoke = flame.maps.smoke.as_ref()?;
+        if flame.smoke_amount <= 0.0 {
+            return None;
+        }
+        match self.effects.smoke {
+            Switch::Off => return Some(0.0),
+            Switch::On => return None,
+            Switch::Auto => {}
+        }
+        let most = |map: &FieldMap, amount: f64| {
+            let grid = volume.grid(&map.grid)?;
+            let (low, high) = grid.range();
+            let (low, high) = map.mapped_range((f64::from(low), f64::from(high)));
+            Some(amount * low.abs().max(high.abs()))
         };
+        let smoke = most(smoke, flame.smoke_amount)?;
+        let soot = flame.maps.soot.as_ref();
+        let soot = soot.and_then(|map| most(map, flame.soot_amount))?;
+        let bounds = flame::world_bounds(volume, &flame.maps, &flame.placement);
+        let bound = smoke_bound(smoke, soot, flame, bounds.size().length());
+        (bound < OFF_BELOW).then_some(bound)
+    }
+
+    /// How hot gas is to bend light, unless that is switched off.
+    fn bending(&self, flaws: &mut Flaws) -> Option<Bending> {
+        let computed = self.effects.refraction != Switch::Off;
         let gain = self.air.refraction_gain;
         if computed && gain > 1.0 {
             flaws.add(format!("refraction is exaggerated {gain} times"));
@@ -252,7 +291,15 @@ impl Project {
             wavelengths: self.render.wavelengths.unwrap_or(wavelengths),
             samples_per_pixel: self.render.samples_per_pixel.unwrap_or(samples_per_pixel),
             scattering_orders: self.render.scattering_orders,
-            effects: self.effects.into(),
+            effects: Effects {
+                // A number that was set by hand stays.
+                wavelengths: if self.render.wavelengths.is_some() {
+                    Switch::Off
+                } else {
+                    Switch::Auto
+                },
+                ..self.effects.into()
+            },
         }
         .validated()
     }

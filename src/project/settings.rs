@@ -166,6 +166,10 @@ pub struct EffectSettings {
     pub dispersion: Switch,
     /// The fire as a light for the stage.
     pub fire_light: Switch,
+    /// Smoke beside the soot.
+    pub smoke: Switch,
+    /// Light scattered more than once.
+    pub scattering_orders: Switch,
 }
 
 impl From<EffectSettings> for Effects {
@@ -177,6 +181,9 @@ impl From<EffectSettings> for Effects {
             refraction: set.refraction,
             dispersion: set.dispersion,
             fire_light: set.fire_light,
+            smoke: set.smoke,
+            scattering_orders: set.scattering_orders,
+            wavelengths: Switch::Auto,
         }
     }
 }

@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use super::chord::{Chord, Runs};
 use super::eikonal::{Index, Path, Tolerance};
-use super::walk::for_each_stretch;
+use super::walk::for_each_stored;
 use crate::math::Ray;
 use crate::scene::Stage;
 use crate::scene::medium::Medium;
@@ -255,7 +255,7 @@ impl Walk<'_> {
 /// Where along a ray of the lattice, from 0 to `out_m`, its first stored brick begins.
 fn first_stored(medium: &Medium, local: &Ray, out_m: f64) -> Option<f64> {
     let mut first = None;
-    for_each_stretch(medium, local, [0.0, out_m], |stretch| {
+    for_each_stored(medium, local, [0.0, out_m], |stretch| {
         first.get_or_insert(stretch.from);
     });
     first
@@ -281,7 +281,7 @@ fn cut(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Chord> {
         }
         let point = between([segment[0], segment[1]], middle_m);
         let position = medium.lattice_from_world.transform_point3(point).to_array();
-        if stored(medium, position.map(|p| p as i32)).is_some() {
+        if stored(medium, position.map(|p| p as i32)).is_some_and(|slot| medium.shows(slot)) {
             match runs.last_mut() {
                 Some(run) if run[1] == step => run[1] = step + 1,
                 _ => runs.push([step, step + 1]),

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::Cancel;
+use super::clock::timed;
 use super::irradiance::FireLight;
 use super::level::Level;
 use super::scatter::InScatter;
@@ -17,6 +18,8 @@ use crate::scene::refractivity::{PATHS_NM, Refractivity};
 pub struct Wanted {
     /// The fire's light scattered towards the eye.
     pub scatter: bool,
+    /// The same more than once.
+    pub again: bool,
     /// The fire as a light for the stage.
     pub fire_light: bool,
     /// The gas that bends rays.
@@ -35,9 +38,24 @@ pub enum Paths {
 /// The fields of one scene.
 #[derive(Debug, Default)]
 pub struct Fields {
-    pub(super) scatter: Option<InScatter>,
-    pub(super) fire_light: Option<FireLight>,
+    pub(super) scatter: Option<Arc<InScatter>>,
+    pub(super) fire_light: Option<Arc<FireLight>>,
     pub(super) bent: Option<Arc<Bent>>,
+    pub(super) seconds: Seconds,
+}
+
+/// What it took to work each of them out, wall-clock seconds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Seconds {
+    pub(super) scatter: f64,
+    pub(super) fire_light: f64,
+    pub(super) bent: f64,
+}
+
+impl Seconds {
+    pub(super) fn all(self) -> f64 {
+        self.scatter + self.fire_light + self.bent
+    }
 }
 
 /// The gas at the wavelength of each group of colours that has a path of its own.
@@ -52,30 +70,28 @@ pub struct Bent {
 }
 
 impl Fields {
-    /// Works them out in the calling thread's rayon pool; `None` if cancelled.
+    /// Works out in the calling thread's rayon pool what is not `known`; `None` if cancelled. Bent light is known.
     pub(super) fn new(
         scene: &Scene,
         tables: &Tables,
         wanted: Wanted,
-        bent: Option<Arc<Bent>>,
+        known: Self,
         level: Level,
         cancel: &Cancel,
     ) -> Option<Self> {
-        let scatter = if wanted.scatter {
-            Some(InScatter::new(scene, tables, level, cancel)?)
-        } else {
-            None
-        };
-        let fire_light = if wanted.fire_light {
-            Some(FireLight::new(scene, tables, level, cancel)?)
-        } else {
-            None
-        };
-        Some(Self {
-            scatter,
-            fire_light,
-            bent,
-        })
+        let mut fields = known;
+        if wanted.scatter && fields.scatter.is_none() {
+            let work = || InScatter::new(scene, tables, wanted.again, level, cancel);
+            let (made, seconds) = timed(work);
+            fields.scatter = Some(Arc::new(made?));
+            fields.seconds.scatter = seconds;
+        }
+        if wanted.fire_light && fields.fire_light.is_none() {
+            let (made, seconds) = timed(|| FireLight::new(scene, tables, level, cancel));
+            fields.fire_light = Some(Arc::new(made?));
+            fields.seconds.fire_light = seconds;
+        }
+        Some(fields)
     }
 }
 

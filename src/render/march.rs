@@ -225,7 +225,7 @@ impl<'a> Marcher<'a> {
         let march = March {
             medium: self.ways.medium,
             tables: self.tables,
-            scatter: self.fields.scatter.as_ref(),
+            scatter: self.fields.scatter.as_deref(),
             step_m: self.ways.step_m as f32,
             packet: Packet::new(chords),
         };

@@ -1,8 +1,8 @@
-//! The core: from a scene to a film. Headless, without a clock, without global state.
+//! The core: from a scene to a film. Headless, without global state, and without a clock but for what [`mod@costs`] tells.
 //!
 //! [`Settings`] say how accurate, [`Plan`] what is computed for this scene at these settings, [`pass`] in which
 //! order, [`march`] how, [`film`] where it lands, [`develop`] how a film becomes a picture; [`probe`] looks at one
-//! point alone. [`mod@null_collision`] is the slow, unbiased reference that the march is tested against.
+//! point alone, [`mod@costs`] measures what each effect takes. [`mod@null_collision`] is the slow, unbiased reference that the march is tested against.
 //!
 //! Everything here is deterministic: the same scene and settings give the same bits, whatever the number of
 //! threads or the order of tiles, because a pixel's value depends on its own ray alone.
@@ -10,6 +10,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -19,7 +20,10 @@ use crate::scene::{Scene, WavelengthSet};
 mod bend;
 mod cells;
 mod chord;
+mod clock;
+pub mod costs;
 pub mod develop;
+pub mod difference;
 mod eikonal;
 pub mod fields;
 pub mod film;
@@ -38,6 +42,7 @@ pub mod plan;
 pub mod probe;
 mod scatter;
 mod shift;
+mod spread;
 mod sweep;
 pub mod tables;
 mod walk;
@@ -61,7 +66,8 @@ pub struct Settings {
     pub wavelengths: WavelengthSet,
     /// Rays for each pixel; 1 is the pixel's centre.
     pub samples_per_pixel: u32,
-    /// How often light may be scattered where scattering is computed: once without noise, more often by path tracing.
+    /// Above 1: how often light may be scattered where scattering is computed, the orders after the first by path tracing
+    /// and not by fields.
     pub scattering_orders: u32,
     /// Which effects are computed.
     pub effects: Effects,
@@ -82,6 +88,12 @@ pub struct Effects {
     pub dispersion: Switch,
     /// The fire as a light for the stage. Auto: where there is a stage.
     pub fire_light: Switch,
+    /// Smoke beside the soot. Auto: where it can be seen.
+    pub smoke: Switch,
+    /// Light scattered more than once, by fields and without noise. Auto: where it can be seen.
+    pub scattering_orders: Switch,
+    /// More wavelengths than the settings say. Auto: where those are too few for the colours of the scene.
+    pub wavelengths: Switch,
 }
 
 impl Effects {
@@ -93,6 +105,9 @@ impl Effects {
         refraction: Switch::Auto,
         dispersion: Switch::Auto,
         fire_light: Switch::Auto,
+        smoke: Switch::Auto,
+        scattering_orders: Switch::Auto,
+        wavelengths: Switch::Auto,
     };
 }
 
@@ -207,6 +222,7 @@ impl Extend<String> for Flaws {
 pub struct Cancel {
     current: Arc<AtomicU64>,
     mine: u64,
+    until: Option<Instant>,
 }
 
 impl Cancel {
@@ -217,12 +233,26 @@ impl Cancel {
 
     /// Cancelled as soon as `current` differs from `mine`.
     pub fn when_passed(current: Arc<AtomicU64>, mine: u64) -> Self {
-        Self { current, mine }
+        Self {
+            current,
+            mine,
+            until: None,
+        }
+    }
+
+    /// The same, cancelled as well once so much time has passed from now: for what is measured, never for a picture.
+    #[must_use]
+    pub fn or_after(&self, time: Duration) -> Self {
+        Self {
+            until: Instant::now().checked_add(time),
+            ..self.clone()
+        }
     }
 
     /// Whether to stop.
     pub fn is_cancelled(&self) -> bool {
         self.current.load(Ordering::Relaxed) != self.mine
+            || self.until.is_some_and(|until| Instant::now() > until)
     }
 }
 
@@ -253,12 +283,23 @@ pub fn render_still(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Option<Frame> {
     let plan = Plan::new(scene, settings);
+    render_planned(scene, &plan, settings, cancel, progress)
+}
+
+/// [`render_still`] after a plan of the same scene and settings, which whoever made it may go on using.
+pub fn render_planned(
+    scene: &Scene,
+    plan: &Plan,
+    settings: &Settings,
+    cancel: &Cancel,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Option<Frame> {
     let passes = pass::ladder(settings, pass::Audience::Still);
     let film = std::sync::Mutex::new(Film::new(settings.size));
     let counts = [AtomicU64::new(0), AtomicU64::new(0)];
     let all = settings.pixels() * passes.len() as u64;
     for pass in &passes {
-        let finished = render_pass(scene, &plan, pass, cancel, &|tile| {
+        let finished = render_pass(scene, plan, pass, cancel, &|tile| {
             counts[1].fetch_add(tile.samples, Ordering::Relaxed);
             film.lock()
                 .unwrap_or_else(std::sync::PoisonError::into_inner)
@@ -278,8 +319,8 @@ pub fn render_still(
             .unwrap_or_else(std::sync::PoisonError::into_inner),
         rays,
         samples,
-        decisions: plan.decisions,
+        decisions: plan.decisions.clone(),
         facts,
-        flaws: plan.flaws,
+        flaws: plan.flaws.clone(),
     })
 }

@@ -58,7 +58,7 @@ pub fn ladder(settings: &Settings, audience: Audience) -> Vec<Pass> {
 
 /// Where in its pixel a sample lies: the additive recurrence on the plastic number (Roberts 2018), which fills
 /// the square evenly at every count and starts at the centre.
-fn offset(sample: u32) -> [f64; 2] {
+pub(super) fn offset(sample: u32) -> [f64; 2] {
     const PLASTIC: f64 = 1.324717957244746;
     [1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC)].map(|step| (0.5 + f64::from(sample) * step).fract())
 }

@@ -30,24 +30,26 @@
 //! p = ∫ σ_s φ dV / (4π ∫ j dV),   φ = ∫ L dω
 //! ```
 //!
-//! light scattered at least twice is about p² + p³ + … = p²/(1 − p) of what is emitted, if what has been scattered once
+//! light scattered at least twice, where that is left out, is about p² + p³ + … = p²/(1 − p) of what is emitted, if what has been scattered once
 //! meets as much soot as fresh light does. It starts deeper inside, so in a dense fire there is more of it than that, and
 //! what is absorbed on the way is counted as seen.
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::Cancel;
 use super::cells::{Cells, Chunk, Colours, WIDE};
 use super::level::Level;
 use super::own_light::reach_m;
+use super::spread::Spread;
 use super::sweep::Sweep;
 use super::tables::Tables;
 use crate::math::lanes::Lanes;
 use crate::scene::Scene;
 
 mod gathered;
+mod orders;
 mod sharpen;
 
 use gathered::Gathered;
@@ -76,8 +78,14 @@ const FINE: Effort = Effort {
     directions: 32,
 };
 
-/// Most floats of all records: light between the layers takes up to four times as many, J as many, 160 MB together.
-const MOST_FLOATS: usize = 1 << 23;
+/// Most floats of all records: light between the layers takes up to four times as many, J as many, 240 MB together.
+const MOST_FLOATS: usize = 3 << 22;
+
+/// Most nodes that are known where a plan has more.
+const MAX_KNOWN: usize = 8;
+
+/// Wavelengths at whose scattering the directions are counted, nm: the ends of what is seen.
+const LOBES_NM: [f64; 2] = [400.0, 700.0];
 
 /// Most directions for a lobe, over those for even scattering: at |g| = 0.75 it is reached.
 const MOST_LOBE: f64 = 8.0;
@@ -112,10 +120,14 @@ pub(super) struct InScatter {
     /// A record for each cell, x fastest: of each colour J less own light, where [`Colours::place`] says.
     light: Vec<Chunk>,
     reach_m: f32,
-    /// The plan's nodes, features that are not carried, and radicals.
+    /// Nodes, features that are not carried, and radicals.
     counts: [usize; 3],
     /// p of the module's page.
     share: f64,
+    /// Where light that is scattered again is in it: the share of all light that still is left out.
+    left_out: Option<f64>,
+    /// Where the plan has more nodes than are worked out: how they become these.
+    spread: Option<Spread>,
 }
 
 impl InScatter {
@@ -124,45 +136,53 @@ impl InScatter {
     pub(super) fn new(
         scene: &Scene,
         tables: &Tables,
+        again: bool,
         level: Level,
         cancel: &Cancel,
     ) -> Option<Self> {
-        Self::with_effort(scene, tables, Effort::of(level), cancel)
+        Self::with_effort(scene, tables, again, Effort::of(level), cancel)
     }
 
     fn with_effort(
         scene: &Scene,
         tables: &Tables,
+        again: bool,
         effort: Effort,
         cancel: &Cancel,
     ) -> Option<Self> {
+        let reduced = tables.for_fields(scene);
+        let few = reduced.as_ref().map_or(tables, |(few, _)| few);
         // The medium in cells, and the directions from which their light is taken.
-        let colours = Colours::new(&scene.flame, tables);
+        let colours = Colours::new(&scene.flame, few);
         let most = effort.cells.min(MOST_FLOATS / (WIDE * colours.chunks()));
         let cells = Cells::new(scene, &colours, most);
         let asymmetry = colours.asymmetry();
-        let strongest = asymmetry
-            .iter()
-            .flatten()
-            .fold(0.0_f32, |a, g| a.max(g.abs()));
-        let directions = directions(effort.for_asymmetry(f64::from(strongest)).directions);
+        // As many whatever the wavelengths, so that these alone make no difference.
+        let strongest = LOBES_NM.map(|nm| scene.flame.asymmetry(nm).abs());
+        let strongest = strongest.into_iter().fold(0.0, f64::max);
+        let directions = directions(effort.for_asymmetry(strongest).directions);
 
         // Each direction's light goes to all cells.
-        let mut gathered = Gathered::new(scene, &cells, &asymmetry, luminous(tables));
+        let mut gathered = Gathered::new(scene, &cells, &asymmetry, luminous(few));
         let extinction = colours.extinction();
-        let mut light = Vec::new();
         let to_cells = scene.flame.medium().lattice_from_world.matrix3 * (1.0 / cells.edge as f64);
-        for &direction in &directions {
-            if cancel.is_cancelled() {
-                return None;
-            }
-            let sweep = Sweep::new(&cells, &extinction, to_cells * direction);
-            sweep.follow(&mut light);
-            gathered.take(&sweep, &light, direction);
-        }
-        gathered.normalise(&directions);
+        let mut rays = Rays {
+            directions: &directions,
+            extinction: &extinction,
+            to_cells,
+            light: Vec::new(),
+        };
+        rays.gather(&cells, &mut gathered, cancel)?;
 
         let share = gathered.share(&colours, directions.len());
+        let mut left_out = None;
+        let often = if again {
+            let (often, rest) = orders::scattered_often(&mut rays, &colours, &gathered, cancel)?;
+            left_out = Some(rest);
+            often
+        } else {
+            Vec::new()
+        };
         let voxel_m = scene.flame.medium().voxel_size_m();
         let reach_m = reach_m(cells.edge as f64, voxel_m) as f32;
         let features = tables.features.len();
@@ -172,10 +192,12 @@ impl InScatter {
             per_voxel: 1.0 / cells.edge as f64,
             size: cells.size,
             chunks: cells.chunks,
-            light: sharpen::sharpened(&gathered, &extinction, reach_m),
+            light: with_more(sharpen::sharpened(&gathered, &extinction, reach_m), &often),
             reach_m,
             counts: [colours.nodes, features - radicals, radicals],
             share,
+            left_out,
+            spread: reduced.map(|(_, spread)| spread),
         })
     }
 
@@ -205,6 +227,8 @@ impl InScatter {
             }
         }
         let [nodes, silent, radicals] = self.counts;
+        let all = self.spread.as_ref().map_or(nodes, Spread::len);
+        let mut known = [0.0; MAX_KNOWN];
         for chunk in 0..self.chunks {
             let tap = |corner: usize| {
                 let step = |axis: usize| (corner >> axis & 1) * next[axis];
@@ -226,13 +250,24 @@ impl InScatter {
             let colours = (0..nodes + radicals).skip((chunk * WIDE).saturating_sub(2));
             for colour in colours.take(WIDE) {
                 let [own, number] = Colours::place(colour);
-                if own == chunk {
-                    let silent = if colour < nodes { 0 } else { silent };
-                    light[colour + silent][lane] = found[number];
+                if own != chunk {
+                    continue;
+                }
+                if colour >= nodes {
+                    light[all + silent + colour - nodes][lane] = found[number];
+                } else if self.spread.is_some() {
+                    known[colour] = found[number];
+                } else {
+                    light[colour][lane] = found[number];
                 }
             }
         }
-        for light in &mut light[nodes..nodes + silent] {
+        if let Some(spread) = &self.spread {
+            for (which, light) in light.iter_mut().take(all).enumerate() {
+                light[lane] = spread.at(which, |i| known[i]);
+            }
+        }
+        for light in &mut light[all..all + silent] {
             light[lane] = 0.0;
         }
     }
@@ -245,7 +280,9 @@ impl InScatter {
 
     /// Estimated share of the picture's light that has been scattered more often than `orders` times (at least 1).
     pub(super) fn orders_left_out(&self, orders: u32) -> f64 {
-        if self.share < 1.0 {
+        if let Some(left_out) = self.left_out {
+            left_out
+        } else if self.share < 1.0 {
             // More scatterings than light: of what is scattered often, each counts, so that their share stays one of all.
             let more = self.share.powi(orders as i32 + 1) / (1.0 - self.share);
             more / (1.0 + more)
@@ -253,6 +290,46 @@ impl InScatter {
             1.0
         }
     }
+}
+
+/// Rays in all directions through cells.
+struct Rays<'a> {
+    directions: &'a [DVec3],
+    extinction: &'a [Vec<Chunk>; 2],
+    to_cells: DMat3,
+    /// Those of one direction; kept, for it is large.
+    light: Vec<Chunk>,
+}
+
+impl Rays<'_> {
+    /// Each direction's light goes to all cells; `None` if cancelled.
+    fn gather(
+        &mut self,
+        cells: &Cells,
+        gathered: &mut Gathered<'_>,
+        cancel: &Cancel,
+    ) -> Option<()> {
+        for &direction in self.directions {
+            if cancel.is_cancelled() {
+                return None;
+            }
+            let sweep = Sweep::new(cells, self.extinction, self.to_cells * direction);
+            sweep.follow(&mut self.light);
+            gathered.take(&sweep, &self.light, direction);
+        }
+        gathered.normalise(self.directions);
+        Some(())
+    }
+}
+
+/// The sum of two fields, of which the second may be none.
+fn with_more(mut light: Vec<Chunk>, more: &[Chunk]) -> Vec<Chunk> {
+    for (light, more) in light.iter_mut().zip(more) {
+        for (light, more) in light.iter_mut().zip(more) {
+            *light += more;
+        }
+    }
+    light
 }
 
 /// `count` directions, evenly over the sphere.

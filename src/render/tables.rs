@@ -4,9 +4,10 @@
 //! in nm, Planck's constants per nm).
 
 use super::glow::GlowTable;
+use super::spread::Spread;
 use crate::physics::blackbody;
-use crate::scene::Scene;
 use crate::scene::glow::Feature;
+use crate::scene::{Scene, WavelengthSet};
 use crate::spectral::Wavelengths;
 
 /// One wavelength of the march.
@@ -56,6 +57,14 @@ pub struct Tables {
 
 /// Most wavelengths of any set.
 pub const MAX_NODES: usize = 64;
+
+/// Most wavelengths at which light from all sides is worked out by itself.
+const FIELD_NODES: usize = 8;
+/// Temperature of what gives most light, over the hottest soot's; and the coolest peak that is looked at, K.
+const LUMINOUS: f64 = 0.9;
+const COOLEST_K: f64 = 800.0;
+/// The fitted set at which it is where there are more.
+const FIELD_SET: u32 = 8;
 
 /// Optical depth at which a ray stops: what is behind keeps e⁻²⁴ = 4e-11 of its radiance, less than an f32's last digit
 /// unless it is a thousand times as bright as what is in front.
@@ -116,6 +125,20 @@ impl Tables {
     /// that puts beyond 0 or 1 counts as these.
     pub(super) fn through(&self, opacity: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|c| (1.0 - opacity[c] / self.opaque[c]).clamp(0.0, 1.0))
+    }
+
+    /// The same laws at few enough wavelengths for fields of light from all sides, and how these become this one's; `None`
+    /// where these are few enough.
+    pub(super) fn for_fields(&self, scene: &Scene) -> Option<(Self, Spread)> {
+        if self.nodes.len() <= FIELD_NODES {
+            return None;
+        }
+        let kelvin = LUMINOUS * f64::from(scene.flame.medium().peak_temperature_k()).max(COOLEST_K);
+        let few = WavelengthSet::Fitted(FIELD_SET).wavelengths(scene.flame.soot());
+        let spread = Spread::new(&few.nodes_nm, &self.wavelengths.nodes_nm, kelvin)?;
+        let features = self.features.clone();
+        let few = Self::new(scene, self.size, few, features, self.scatters);
+        Some((few, spread))
     }
 
     /// How many numbers light is carried in: nodes, then features.

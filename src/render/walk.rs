@@ -15,11 +15,34 @@ pub(super) struct Stretch {
     pub(super) to: f64,
 }
 
-/// Visits the stretches of a ray of the lattice in stored bricks, nearest first, between two parameters that lie in the
-/// domain (J. Amanatides and A. Woo, Eurographics 1987).
+/// Visits the stretches of a ray of the lattice in bricks in which something shows, nearest first, between two parameters
+/// that lie in the domain.
 #[inline(always)]
 pub(super) fn for_each_stretch(
     medium: &Medium,
+    ray: &Ray,
+    range: [f64; 2],
+    visit: impl FnMut(Stretch),
+) {
+    for_each_below(medium, medium.shown, ray, range, visit);
+}
+
+/// The same for all stored bricks, those that only bend light as well.
+#[inline(always)]
+pub(super) fn for_each_stored(
+    medium: &Medium,
+    ray: &Ray,
+    range: [f64; 2],
+    visit: impl FnMut(Stretch),
+) {
+    for_each_below(medium, NO_BRICK, ray, range, visit);
+}
+
+/// The same for bricks whose slot is below a number (J. Amanatides and A. Woo, Eurographics 1987).
+#[inline(always)]
+fn for_each_below(
+    medium: &Medium,
+    below: u32,
     ray: &Ray,
     [enter, exit]: [f64; 2],
     mut visit: impl FnMut(Stretch),
@@ -53,7 +76,7 @@ pub(super) fn for_each_stretch(
         );
         let to = next[axis].min(exit);
         let slot = medium.table[medium.brick_index(brick.as_uvec3())];
-        if slot != NO_BRICK {
+        if slot < below {
             visit(Stretch { slot, from, to });
         }
         brick[axis] += step[axis];

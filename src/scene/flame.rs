@@ -20,6 +20,7 @@ pub struct Flame {
     volume: Arc<Volume>,
     effect: Effect,
     medium: Arc<Medium>,
+    smoke_left_out: Option<f64>,
 }
 
 impl Flame {
@@ -47,7 +48,18 @@ impl Flame {
             volume: Arc::clone(volume),
             effect,
             medium,
+            smoke_left_out: params.smoke_left_out,
         }
+    }
+
+    /// Whether any of the packed soot is smoke.
+    pub fn has_smoke(&self) -> bool {
+        self.effect.has_smoke()
+    }
+
+    /// What smoke that is not packed would change in the picture at most, ΔE_ITP; `None` where none was left out.
+    pub fn smoke_left_out(&self) -> Option<f64> {
+        self.smoke_left_out
     }
 
     /// The packed fields.

@@ -56,6 +56,8 @@ pub struct FlameParams {
     pub soot_amount: f64,
     /// Multiplies the smoke field, at least 0.
     pub smoke_amount: f64,
+    /// Where smoke is left out because nobody could see it: what it would change at most, ΔE_ITP.
+    pub smoke_left_out: Option<f64>,
     /// What glows in the gas beside soot.
     pub glow: GlowParams,
     /// The air around.
@@ -195,7 +197,10 @@ impl FlameParams {
         // An amount of what is not there makes no difference.
         let amount = |map: &Option<FieldMap>, amount: f64| if map.is_some() { amount } else { 0.0 };
         let soot = amount(&self.maps.soot, self.soot_amount);
-        let smoke = amount(&self.maps.smoke, self.smoke_amount);
+        let smoke = match self.smoke_left_out {
+            Some(_) => 0.0,
+            None => amount(&self.maps.smoke, self.smoke_amount),
+        };
         if smoke > 0.0 || soot <= 0.0 {
             ([soot, smoke], 1.0)
         } else {
@@ -243,6 +248,13 @@ pub(super) struct Effect {
     pub(super) glow: Glow,
     pub(super) scattering: Option<Scattering>,
     pub(super) bending: Option<BentAir>,
+}
+
+impl Effect {
+    /// Whether smoke is packed.
+    pub(super) fn has_smoke(&self) -> bool {
+        self.key.amounts[1] > 0.0
+    }
 }
 
 /// How the medium scatters.

@@ -9,9 +9,12 @@
 //! Positions are in *lattice* coordinates: sample (i, j, k) of the packed box sits at (i, j, k), and the lattice
 //! starts on a brick border below the first voxel. Values between samples follow [`Interpolation`], all fields alike.
 
+use std::sync::OnceLock;
+
 use glam::{DAffine3, DVec3, IVec3, UVec3};
 
 use super::interpolation::Interpolation;
+use super::means::Means;
 use crate::math::{Aabb, Ray, lanes};
 use crate::physics::blackbody::SECOND_RADIATION_CONSTANT_NM_K;
 
@@ -52,6 +55,10 @@ pub struct Medium {
     /// Edge of a voxel in metres: the cube root of its volume.
     pub(crate) voxel_size_m: f64,
     pub(crate) peaks: Peaks,
+    /// Stored bricks before this one show something; those from it on only bend light.
+    pub(crate) shown: u32,
+    /// Worked out when they are asked for first.
+    pub(crate) means: OnceLock<Means>,
 }
 
 /// The greatest of what a medium holds.
@@ -136,6 +143,12 @@ impl Medium {
     /// How values between samples are formed.
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
+    }
+
+    /// Whether anything in a stored brick glows or absorbs, or lies beside such for a smooth interpolation.
+    #[inline(always)]
+    pub(crate) fn shows(&self, slot: u32) -> bool {
+        slot < self.shown
     }
 
     /// How many bricks are stored, and how many the box has.

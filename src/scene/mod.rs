@@ -5,6 +5,7 @@
 //! only touched when a field's mapping changes; fuel, radius and amount only change the laws.
 
 mod air;
+mod brick_means;
 pub mod camera;
 mod camera_moves;
 mod columns;
@@ -15,6 +16,7 @@ mod flame_params;
 pub mod fuel;
 pub mod glow;
 pub mod interpolation;
+pub(crate) mod means;
 pub mod medium;
 mod named;
 pub mod optics;

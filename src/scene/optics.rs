@@ -140,6 +140,7 @@ mod tests {
             soot_hold: Hold::Number,
             soot_amount: 2.5,
             smoke_amount: 1.0,
+            smoke_left_out: None,
             glow: GlowParams::default(),
             interpolation: Interpolation::default(),
             air: Air::default(),

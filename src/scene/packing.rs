@@ -1,5 +1,7 @@
 //! From named grids and their mappings to a [`Medium`]: the only place that reads a volume's voxels.
 
+use std::sync::OnceLock;
+
 use glam::{DAffine3, DVec3, IVec3, UVec3};
 use rayon::prelude::*;
 use thiserror::Error;
@@ -228,28 +230,37 @@ impl Medium {
         if self.interpolation == Interpolation::Tricubic {
             shows = self.beside(packed, &shows);
         }
-        if let Some(kelvin) = gas.bends_above_k {
-            let bends = self.bending(packed, kelvin as f32);
-            shows
-                .iter_mut()
-                .zip(bends)
-                .for_each(|(shows, bends)| *shows |= bends);
+        // Bricks that only bend light come after those in which something shows, which alone are marched through.
+        let bends = gas
+            .bends_above_k
+            .map(|kelvin| self.bending(packed, kelvin as f32))
+            .unwrap_or_default();
+        let bends_only = |i: usize| !shows[i] && bends.get(i).is_some_and(|bends| *bends);
+        let shown = (0..packed.len()).filter(|&i| shows[i]);
+        self.shown = shown.clone().count() as u32;
+        let order: Vec<usize> = shown
+            .chain((0..packed.len()).filter(|&i| bends_only(i)))
+            .collect();
+        for (slot, &i) in (0_u32..).zip(&order) {
+            let index = self.brick_index(packed[i]);
+            self.table[index] = slot;
         }
-        let mut kept = 0;
-        for (i, &brick) in packed.iter().enumerate() {
-            if !shows[i] {
-                continue;
-            }
-            let own = i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES;
-            for beside in [&mut self.flame, &mut self.smoke] {
-                if !beside.is_empty() {
-                    beside.copy_within(own.clone(), kept * BRICK_SAMPLES);
+        let kept = order.len();
+        if order.is_sorted() {
+            // In place, as long as nothing is moved up.
+            for (slot, &i) in order.iter().enumerate() {
+                let own = i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES;
+                for beside in [&mut self.flame, &mut self.smoke] {
+                    if !beside.is_empty() {
+                        beside.copy_within(own.clone(), slot * BRICK_SAMPLES);
+                    }
                 }
+                self.samples.copy_within(own, slot * BRICK_SAMPLES);
             }
-            self.samples.copy_within(own, kept * BRICK_SAMPLES);
-            let index = self.brick_index(brick);
-            self.table[index] = kept as u32;
-            kept += 1;
+        } else {
+            self.samples = in_order(&self.samples, &order);
+            self.flame = in_order(&self.flame, &order);
+            self.smoke = in_order(&self.smoke, &order);
         }
         self.samples.truncate(kept * BRICK_SAMPLES);
         self.samples.shrink_to_fit();
@@ -326,6 +337,12 @@ impl Medium {
     }
 }
 
+/// The bricks of a field in another order; nothing where there is no field.
+fn in_order<T: Copy>(field: &[T], order: &[usize]) -> Vec<T> {
+    let brick = |&i: &usize| field.get(i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES);
+    order.iter().filter_map(brick).flatten().copied().collect()
+}
+
 /// Visits a brick's samples with their voxels; the first is voxel `first`.
 fn for_each_sample<T>(samples: &mut [T], first: IVec3, mut visit: impl FnMut(IVec3, &mut T)) {
     let edge = SAMPLES as i32;
@@ -398,6 +415,8 @@ pub(super) fn empty() -> Medium {
         voxel_size_m: 1.0,
         interpolation: Interpolation::default(),
         peaks: Peaks::default(),
+        means: OnceLock::new(),
+        shown: 0,
     }
 }
 

@@ -57,8 +57,14 @@ impl WavelengthSet {
 
     /// Nodes and weights for soot of the given law.
     pub fn wavelengths(self, soot: SootLaw) -> Wavelengths {
+        self.tinted_wavelengths(soot, &[])
+    }
+
+    /// The same where some of the light is tinted on its way: each tint is a factor at each wavelength (nm), at most a few
+    /// times as large at one than at another. Fitted sets hold such light as well.
+    pub fn tinted_wavelengths(self, soot: SootLaw, tints: &[&dyn Fn(f64) -> f64]) -> Wavelengths {
         match self {
-            Self::Fitted(count) => fitted(count, soot),
+            Self::Fitted(count) => fitted(count, soot, tints),
             Self::Plain(count) => plain(count),
         }
     }
@@ -130,7 +136,7 @@ fn under_d65(lambda_nm: f64) -> [f64; 3] {
     cie::colour_matching(lambda_nm).map(|bar| bar * cie::d65(lambda_nm))
 }
 
-fn fitted(count: u32, soot: SootLaw) -> Wavelengths {
+fn fitted(count: u32, soot: SootLaw, tints: &[&dyn Fn(f64) -> f64]) -> Wavelengths {
     let nodes_nm = gauss_legendre(count as usize, FITTED_RANGE_NM);
     let targets_nm: Vec<f64> = steps(TARGET_RANGE_NM, TARGET_STEP_NM).collect();
     // Trapezoid weights: half at both ends.
@@ -157,6 +163,13 @@ fn fitted(count: u32, soot: SootLaw) -> Wavelengths {
     let depth_at_nodes: Vec<f64> = nodes_nm.iter().map(|&nm| relative_depth(nm)).collect();
     let depth_at_targets: Vec<f64> = targets_nm.iter().map(|&nm| relative_depth(nm)).collect();
 
+    let tints: Vec<[Vec<f64>; 2]> = tints
+        .iter()
+        .map(|tint| {
+            [&nodes_nm, &targets_nm].map(|places| places.iter().map(|&nm| tint(nm)).collect())
+        })
+        .collect();
+
     let mut emission = LeastSquares::new(count as usize);
     let mut opacity = LeastSquares::new(count as usize);
     for depth in steps(FIT_OPTICAL_DEPTHS, 0.25) {
@@ -164,17 +177,27 @@ fn fitted(count: u32, soot: SootLaw) -> Wavelengths {
             let radiance = |nm: f64, relative: f64| {
                 (-depth * relative).exp() * blackbody::spectral_radiance(nm, temperature_k)
             };
+            let spectrum = |places: &[f64], depths: &[f64]| -> Vec<f64> {
+                let places = places.iter().zip(depths);
+                places.map(|(&nm, &depth)| radiance(nm, depth)).collect()
+            };
+            let at_nodes = spectrum(&nodes_nm, &depth_at_nodes);
+            let at_targets = spectrum(&targets_nm, &depth_at_targets);
             emission.add(
-                nodes_nm
-                    .iter()
-                    .zip(&depth_at_nodes)
-                    .map(|(&nm, &relative)| radiance(nm, relative)),
-                targets_nm
-                    .iter()
-                    .zip(&depth_at_targets)
-                    .map(|(&nm, &relative)| radiance(nm, relative)),
+                at_nodes.iter().copied(),
+                at_targets.iter().copied(),
                 &observer,
             );
+            for [of_nodes, of_targets] in &tints {
+                let tinted = |light: &[f64], tint: &[f64]| -> Vec<f64> {
+                    light.iter().zip(tint).map(|(a, b)| a * b).collect()
+                };
+                emission.add(
+                    tinted(&at_nodes, of_nodes).into_iter(),
+                    tinted(&at_targets, of_targets).into_iter(),
+                    &observer,
+                );
+            }
         }
         let veil = |relative: &f64| -(-(depth + 0.05) * relative).exp_m1();
         opacity.add(

@@ -7,6 +7,9 @@
 //! Each scene is rendered in turn with one effect on, with it off, and as a scene that never heard of it: emission and
 //! absorption alone. Ratios are of wall-clock time of one thread, medians of pairs that follow each other; the last
 //! column shows by how much two equal runs differ, which is the noise. With `SOOTLIGHT_SHARED` on a pool fire as well.
+//!
+//! A last line compares the picture whose effects are decided automatically with the same picture where each was switched by
+//! hand to what was decided: what deciding costs.
 
 #![allow(clippy::print_stdout, reason = "what a bench is for")]
 
@@ -15,7 +18,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use sootlight::project::Project;
-use sootlight::render::{Cancel, render_still};
+use sootlight::render::{Cancel, Plan, render_still};
 use sootlight::scene::Scene;
 use sootlight::volume::{self, BuiltIn, Limits, Volume};
 
@@ -64,7 +67,54 @@ fn main() {
         for (effect, calls, switch) in EFFECTS {
             measure(&volume, effect, calls, switch);
         }
+        measure_deciding(&volume);
     }
+}
+
+/// Automatic against switched by hand to the same, in seconds of one thread.
+fn measure_deciding(volume: &Arc<Volume>) {
+    let mut project = Project::default();
+    let Ok(mut job) = project
+        .set("render.size=[512, 512]")
+        .map_err(|error| error.to_string())
+        .and_then(|()| project.job(volume).map_err(|error| error.to_string()))
+    else {
+        return println!("  cannot be rendered");
+    };
+    let scene = job.scene(None);
+    let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(1).build() else {
+        return println!("  no thread");
+    };
+    let seconds = |job: &sootlight::project::Job| {
+        let begun = Instant::now();
+        let still = || {
+            render_still(&scene, &job.settings, &Cancel::never(), &|_| {}).map(|it| it.decisions)
+        };
+        let decisions = pool.install(still);
+        (begun.elapsed().as_secs_f64(), decisions)
+    };
+    let automatic = job.clone();
+    let (_, decisions) = seconds(&automatic);
+    job.settings.effects = job
+        .settings
+        .effects
+        .as_decided(&decisions.unwrap_or_default());
+    let mut ratios: Vec<f64> = (0..PAIRS)
+        .map(|_| {
+            let by_hand = seconds(&job).0;
+            seconds(&automatic).0 / by_hand
+        })
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    let deciding = Instant::now();
+    std::hint::black_box(Plan::new(&scene, &automatic.settings));
+    println!(
+        "  automatic over by hand: {:.3} ({:.3} to {:.3}); deciding takes {:.1} ms",
+        ratios[PAIRS / 2],
+        ratios[0],
+        ratios[PAIRS - 1],
+        1e3 * deciding.elapsed().as_secs_f64()
+    );
 }
 
 fn measure(volume: &Arc<Volume>, effect: &str, calls: &[&str], switch: &str) {

@@ -37,7 +37,9 @@ fn statistics_tell_what_burns_and_which_effects_were_computed() {
     let states: Vec<&str> = effects.iter().map(|row| row[1].as_str()).collect();
     assert_eq!(
         states,
-        ["off", "on", "on", "off", "off", "off", "off"],
+        [
+            "off", "off", "on", "on", "off", "off", "on", "off", "off", "off"
+        ],
         "{effects:?}"
     );
     assert_eq!(effects[0][2], "there is no soot");
@@ -48,18 +50,90 @@ fn statistics_tell_what_burns_and_which_effects_were_computed() {
     assert_eq!(torch["exposure"]["false_colour"], false);
     let effects = plan(&torch);
     assert_eq!(effects[0][1], "on");
-    assert_eq!(effects[1][1..], ["off", "there is no salt"]);
-    assert_eq!(effects[2][1], "off");
-    assert!(effects[2][2].starts_with("no field says where gas burns"));
+    assert_eq!(effects[2][1..], ["off", "there is no salt"]);
+    assert_eq!(effects[3][1], "off");
+    assert!(effects[3][2].starts_with("no field says where gas burns"));
 
     let off = "--preset copper --set effects.lines=off --set effects.chemiluminescence=off --set soot.amount=1 \
                --set effects.scattering=off --set effects.refraction=off --set effects.dispersion=off \
-               --set effects.fire_light=off";
-    for row in &plan(&stats(&place, off))[1..] {
+               --set effects.fire_light=off --set effects.smoke=off";
+    let switched = [
+        "smoke",
+        "lines",
+        "chemiluminescence",
+        "scattering",
+        "refraction",
+        "dispersion",
+        "fire_light",
+    ];
+    let rows = plan(&stats(&place, off));
+    for row in rows
+        .iter()
+        .filter(|row| switched.contains(&row[0].as_str()))
+    {
         assert_eq!(
             row[1..],
             ["off".to_owned(), format!("effects.{} is off", row[0])]
         );
+    }
+}
+
+#[test]
+fn statistics_tell_what_could_be_saved_and_what_it_costs() {
+    let place = Place::new();
+    let told = stats(
+        &place,
+        "--set effects.scattering=on --set stage.ground=true",
+    );
+    let cost = |effect: &str| {
+        let rows = told["plan"].as_array().unwrap();
+        let row = rows.iter().find(|row| row["effect"] == effect).unwrap();
+        row["cost_seconds"].clone()
+    };
+    assert!(cost("scattering").as_f64().unwrap() > 0.0);
+    for nothing in ["emission-absorption", "smoke", "lines", "chemiluminescence"] {
+        assert!(cost(nothing).is_null(), "{nothing}");
+    }
+}
+
+#[test]
+fn info_tells_the_plan_as_a_table() {
+    let place = Place::new();
+    let told = |words: &str| {
+        let [said, _] = place.expect(0, &format!("info --set render.size=[48,64] {words}"));
+        said
+    };
+    assert!(!told("").contains("is computed with"));
+    let plan = told("--plan --set effects.scattering=on --set effects.dispersion=off");
+    let row = |effect: &str| {
+        let mut rows = plan
+            .lines()
+            .skip_while(|line| !line.contains("is computed with"));
+        let found = rows.find(|line| line.split_whitespace().next() == Some(effect));
+        let words = found.unwrap_or_else(|| panic!("{effect}: {plan}"));
+        // Columns stand two spaces apart.
+        let cells = words.split("  ").map(str::trim).filter(|it| !it.is_empty());
+        cells.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert!(plan.contains("a picture of 48 × 64 pixels"), "{plan}");
+    assert_eq!(
+        row("effect"),
+        ["effect", "switch", "state", "changes", "seconds", "why"]
+    );
+    let scattering = row("scattering");
+    assert_eq!(scattering[1..3], ["on", "computed"]);
+    assert!(scattering[3].ends_with(" ΔE") && scattering[4].starts_with("costs "));
+    assert!(scattering[5].starts_with("soot of 21 nm scatters"));
+    assert_eq!(
+        row("lines")[1..],
+        ["auto", "left out", "-", "-", "there is no salt"]
+    );
+    assert_eq!(
+        row("dispersion")[1..],
+        ["off", "left out", "-", "-", "effects.dispersion is off"]
+    );
+    for effect in ["smoke", "refraction", "fire_light", "wavelengths"] {
+        assert!(row(effect).len() == 6, "{effect}: {plan}");
     }
 }
 

@@ -61,11 +61,9 @@ fn statistics_tell_of_air_and_stage_what_was_set_and_what_follows() {
     let bare = stats(&place, "");
     let none = json!({ "ground_height_m": null, "spheres": 0, "logs": 0, "backdrop": null });
     assert_eq!(bare["stage"], none);
-    assert_eq!(
-        bare["air"]["refraction_gain"],
-        Value::Null,
-        "nothing shows it"
-    );
+    assert_eq!(bare["air"]["refraction_gain"], 1.0);
+    let straight = stats(&place, "--set effects.refraction=off");
+    assert_eq!(straight["air"]["refraction_gain"], Value::Null);
     assert_eq!(bare["fire"]["asymmetry"], Value::Null);
 }
 

@@ -74,6 +74,9 @@ fn settings(scattering_orders: u32) -> Settings {
         scattering_orders,
         effects: Effects {
             scattering: Switch::On,
+            scattering_orders: Switch::Off,
+            refraction: Switch::Off,
+            wavelengths: Switch::Off,
             ..Effects::AUTO
         },
     }
@@ -217,4 +220,45 @@ fn a_cancelled_picture_of_higher_orders_gives_no_tile() {
         *tiles.lock().unwrap() += 1;
     });
     assert!(!finished && tiles.into_inner().unwrap() == 0);
+}
+
+/// The luminance that fields of light scattered again add to a picture, over what paths of two and more scatterings bring.
+fn fields_over_paths(scene: &Scene, rays: u32) -> f64 {
+    let with = |again: Switch| {
+        let mut settings = settings(1);
+        settings.effects.scattering_orders = again;
+        let plan = Plan::new(scene, &settings);
+        let light = rays_of(scene, &plan);
+        light.iter().map(|xyz| xyz[1]).sum::<f64>()
+    };
+    let added = with(Switch::On) - with(Switch::Off);
+    let wavelengths = WAVELENGTHS.wavelengths(scene.flame.soot());
+    let params = Params {
+        scattering: Scattering::Flame,
+        min_bounces: 2,
+        max_bounces: 64,
+        ..Params::default()
+    };
+    let reference = NullCollision::new(scene, &wavelengths, &params);
+    let reference = reference.render(SIZE, rays, 1 << 41).unwrap();
+    added / reference.iter().map(|pixel| pixel.mean[1]).sum::<f64>()
+}
+
+fn rays_of(scene: &Scene, plan: &Plan) -> Vec<[f64; 3]> {
+    rays(scene, plan, 0)
+}
+
+#[test]
+fn light_scattered_again_by_fields_is_that_of_paths() {
+    // Soot of 60 nm in a torch, as spheres scatter and evenly.
+    for (asymmetry, within) in [(None, 0.12), (Some("soot.asymmetry=0"), 0.06)] {
+        let mut project = sootlight::project::Project::default();
+        let keys = ["effects.scattering=on", "soot.radius_nm=60"];
+        project.set_all(keys.into_iter().chain(asymmetry)).unwrap();
+        project.render.size = SIZE;
+        let scene = project.job(&common::torch()).unwrap().scene(None);
+        let ratio = fields_over_paths(&scene, 512);
+        println!("{asymmetry:?}: {ratio:.3}");
+        assert!((ratio - 1.0).abs() < within, "{asymmetry:?}: {ratio}");
+    }
 }

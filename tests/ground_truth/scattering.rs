@@ -55,6 +55,9 @@ fn marched(scene: &Scene, scattering: Switch) -> Vec<[f64; 3]> {
         scattering_orders: 1,
         effects: Effects {
             scattering,
+            scattering_orders: Switch::Off,
+            refraction: Switch::Off,
+            wavelengths: Switch::Off,
             ..Effects::AUTO
         },
     };
@@ -273,6 +276,9 @@ fn mean_of_still(scene: &Scene, scattering_orders: u32, threads: usize) -> ([f64
         scattering_orders,
         effects: Effects {
             scattering: Switch::On,
+            scattering_orders: Switch::Off,
+            refraction: Switch::Off,
+            wavelengths: Switch::Off,
             ..Effects::AUTO
         },
     };

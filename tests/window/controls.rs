@@ -56,6 +56,8 @@ fn fuel_changes_the_job_and_the_picture_where_the_soot_model_looks_at_it() {
     // How much soot there is was said by hand, so that only the soot's kind is the fuel's.
     let mut project = Project::default();
     project.set("volume.soot.scale=1").unwrap();
+    // Nor do its products bend light.
+    project.set("effects.refraction=off").unwrap();
     let mut harness = tall_window(project);
     let (before, generation) = (job(&harness), harness.state().generation());
     harness.get_by_label_contains("one soot for all fuels");
@@ -115,7 +117,9 @@ fn interpolation_is_chosen_and_renders_anew() {
 
 #[test]
 fn humidity_and_carbon_dioxide_change_the_air_and_say_that_nothing_shows_it() {
-    let mut harness = tall_window(Project::default());
+    let mut project = Project::default();
+    project.set("effects.refraction=off").unwrap();
+    let mut harness = tall_window(project);
     let (before, generation) = (job(&harness), harness.state().generation());
     set_slider(&mut harness, "Humidity", 0.9);
     set_slider(&mut harness, "CO₂", 1500.0);
@@ -134,7 +138,7 @@ fn humidity_and_carbon_dioxide_change_the_air_and_say_that_nothing_shows_it() {
     );
     for words in ["CO₂ acts", "pressure acts"] {
         harness.get_by_label(&format!(
-            "{words} through refraction; nothing behind the fire shows it: add a backdrop or a stage"
+            "{words} through refraction, which is off: switch it on under Effects"
         ));
     }
 }
@@ -306,7 +310,11 @@ fn a_drag_under_full_load_stays_live_and_ends_at_the_last_job() {
     );
     settle(&mut harness);
     let last = job(&harness);
-    let still = render_still(&last.scene(None), &last.settings, &Cancel::never(), &|_| {});
+    // What is at the border of being seen stays as it was on the way.
+    let mut settings = last.settings;
+    let decisions = &harness.state().picture().progress.decisions;
+    settings.effects = settings.effects.as_decided(decisions);
+    let still = render_still(&last.scene(None), &settings, &Cancel::never(), &|_| {});
     assert!(*harness.state().picture().film() == still.expect("not cancelled").film);
 }
 

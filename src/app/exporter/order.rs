@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::app::Document;
 use crate::export::Format;
 use crate::project::{CameraSettings, Project, Quality};
+use crate::render::Effects;
 use crate::render::develop::Metering;
 use crate::volume::Volume;
 
@@ -41,6 +42,8 @@ pub(in crate::app) struct Order {
     pub(in crate::app) volume: Arc<Volume>,
     /// Brightness and white of the window; measured on the still itself if the window has none yet.
     pub(in crate::app) metering: Option<Metering>,
+    /// Which effects the window shows, where that is known: an export leaves none of them out, and adds none.
+    pub(in crate::app) effects: Option<Effects>,
     /// Where to.
     pub(in crate::app) path: PathBuf,
     /// As what.
@@ -69,6 +72,7 @@ impl Wish {
         self,
         document: &Document,
         metering: Option<Metering>,
+        on_show: Option<Effects>,
     ) -> Option<Order> {
         let volume = Arc::clone(document.volume()?);
         // A camera that frames the flame would stand elsewhere in a picture of another shape.
@@ -80,6 +84,7 @@ impl Wish {
             project,
             volume,
             metering,
+            effects: on_show,
             path: self.path,
             format: self.format,
         })

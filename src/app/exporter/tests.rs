@@ -3,6 +3,7 @@ use super::*;
 use crate::export::Format;
 use crate::project::Project;
 use crate::render::develop::Metering;
+use crate::render::{Effects, Switch};
 use crate::volume::procedural;
 
 fn order(path: PathBuf, side: u32) -> Order {
@@ -16,6 +17,7 @@ fn order(path: PathBuf, side: u32) -> Order {
             white_xyz: [1.0; 3],
             bright_y: 1.0,
         }),
+        effects: None,
         path,
         format: Format::Exr,
     }
@@ -44,6 +46,44 @@ fn one_export_runs_at_a_time_and_ends_with_a_file() {
         Outcome::Done { size: [32, 32], .. }
     ));
     assert!(folder.path().join("a.exr").is_file() && !folder.path().join("b.exr").exists());
+}
+
+#[test]
+fn what_the_window_shows_is_exported_and_told_where_the_still_would_decide_otherwise() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = |name: &str, effects: Option<Effects>| {
+        let mut exporter = Exporter::new(Arc::new(|| {}));
+        let mut order = order(folder.path().join(name), 32);
+        order.effects = effects;
+        exporter.begin(order);
+        assert!(matches!(outcome(&mut exporter), Outcome::Done { .. }));
+        std::fs::read(folder.path().join(name)).unwrap()
+    };
+    let by_itself = written("a.exr", None);
+    let shown = Effects {
+        lines: Switch::Off,
+        chemiluminescence: Switch::Off,
+        scattering: Switch::Off,
+        scattering_orders: Switch::Off,
+        refraction: Switch::Off,
+        dispersion: Switch::Off,
+        fire_light: Switch::Off,
+        ..Effects::AUTO
+    };
+    let as_shown = written("b.exr", Some(shown));
+    assert!(
+        by_itself != as_shown,
+        "the window's effects were passed over"
+    );
+    let text = String::from_utf8_lossy(&as_shown);
+    // What the still would have left out by itself is not told as if somebody had switched it.
+    for told in [
+        "refraction = \"off\"",
+        "fire_light = \"auto\"",
+        "lines = \"auto\"",
+    ] {
+        assert!(text.contains(told), "{told}");
+    }
 }
 
 #[test]

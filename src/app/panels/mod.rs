@@ -29,6 +29,7 @@ use super::exporter::Wish;
 use super::recent::Recent;
 use crate::project::{Control, Job, Mend, Preset, why_idle};
 use crate::render::Facts;
+use crate::render::costs::Cost;
 use crate::render::plan::Decision;
 use crate::volume::BuiltIn;
 
@@ -99,6 +100,8 @@ struct Known<'a> {
     job: Option<&'a Job>,
     /// What its plan decided; empty while that is not known.
     decisions: &'a [Decision],
+    /// What effects cost in it; empty while that is not measured.
+    costs: &'a [Cost],
     /// What was found out about it.
     facts: Facts,
 }
@@ -139,11 +142,13 @@ impl Panels {
                         let recognised = document.recognised().cloned();
                         let automatic_half = document.automatic_half_saturation_cd_m2();
                         let decisions = document.decisions.clone();
+                        let costs = document.costs.clone();
                         let facts = document.facts;
                         let (project, job) = document.parts();
                         let known = Known {
                             job,
                             decisions: &decisions,
+                            costs: &costs,
                             facts,
                         };
                         fire::show(ui, project, known, commands);

@@ -75,9 +75,9 @@ fn only_what_changes_the_light_asks_for_a_picture() {
         (&[], "fuel.blue_glow=2"),
         (&["fuel.blue_glow=0"], field),
         // The file says how hot the gas is.
-        (&[], "air.temperature_k=350"),
-        (&[], "air.humidity=0.9"),
-        (&[], "air.refraction_gain=2"),
+        (&["effects.refraction=off"], "air.temperature_k=350"),
+        (&["effects.refraction=off"], "air.humidity=0.9"),
+        (&["effects.refraction=off"], "air.refraction_gain=2"),
         // There is no smoke.
         (&[], "smoke.albedo=0.5"),
         (

@@ -253,17 +253,27 @@ pub const KEYS: &[Key] = &[
     key(
         "effects.refraction",
         SWITCH,
-        "light bent by hot gas; auto: where a backdrop or a stage shows it",
+        "light bent by hot gas; auto: where it can be seen",
     ),
     key(
         "effects.dispersion",
         SWITCH,
-        "colours bent differently; auto: never, for it is a fiftieth of the bending",
+        "colours bent differently; auto: where a backdrop shows it",
     ),
     key(
         "effects.fire_light",
         SWITCH,
-        "the fire as a light for the stage; auto: where there is a stage",
+        "the fire as a light for the stage; auto: where a stage is in view",
+    ),
+    key(
+        "effects.smoke",
+        SWITCH,
+        "smoke beside the soot; auto: where it can be seen",
+    ),
+    key(
+        "effects.scattering_orders",
+        SWITCH,
+        "light scattered more than once, without noise; auto: where it can be seen",
     ),
     key(
         "camera.eye",

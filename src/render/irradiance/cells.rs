@@ -13,7 +13,7 @@ use crate::math::Aabb;
 use crate::math::lanes::{self, Kernel};
 use crate::render::Cancel;
 use crate::render::lookup::lookup;
-use crate::scene::medium::{BRICK, Medium, NO_BRICK};
+use crate::scene::medium::{BRICK, Medium};
 
 /// How finely the medium is cut.
 #[derive(Debug, Clone, Copy)]
@@ -66,7 +66,7 @@ impl Rule {
     }
 }
 
-/// The cells of all stored bricks, brick by brick in the order of their slots, x fastest within each.
+/// The cells of all bricks in which something shows, brick by brick in the order of their slots, x fastest within each.
 #[derive(Debug)]
 pub(super) struct Cells {
     /// Cells along a brick's edge.
@@ -160,9 +160,9 @@ impl Cells {
 
 fn bricks_of_slots(medium: &Medium) -> Vec<UVec3> {
     let (width, height) = (medium.bricks.x as usize, medium.bricks.y as usize);
-    let mut bricks = vec![UVec3::ZERO; medium.occupancy().0];
+    let mut bricks = vec![UVec3::ZERO; medium.shown as usize];
     for (i, &slot) in medium.table.iter().enumerate() {
-        if slot != NO_BRICK {
+        if medium.shows(slot) {
             bricks[slot as usize] = UVec3::new(
                 (i % width) as u32,
                 (i / width % height) as u32,

@@ -42,9 +42,9 @@ use glam::DVec3;
 use super::Cancel;
 use super::glow::MAX_FEATURES;
 use super::level::Level;
+use super::spread::Spread;
 use super::tables::{MAX_NODES, Tables};
 use crate::math::lanes;
-use crate::scene::medium::BRICK_SAMPLES;
 use crate::scene::{Medium, Scene, Stage};
 
 mod ball;
@@ -157,6 +157,8 @@ pub(super) struct FireLight {
     columns: Columns,
     /// What self-absorption leaves of each channel's light on the way through a part of the fire: 1 but for lines.
     alone: Vec<Block>,
+    /// Where the plan has more nodes than are worked out: how many are, and how they become the plan's.
+    spread: Option<(usize, Spread)>,
 }
 
 impl FireLight {
@@ -173,8 +175,9 @@ impl FireLight {
     fn with(scene: &Scene, tables: &Tables, effort: &Effort, cancel: &Cancel) -> Option<Self> {
         let medium: &Medium = scene.flame.medium();
         let directions = Directions::new(effort.squares);
-        let bricks = medium.samples.len() / BRICK_SAMPLES;
-        let channels = Channels::new(scene, tables);
+        let bricks = medium.shown as usize;
+        let reduced = tables.for_fields(scene);
+        let channels = Channels::new(scene, reduced.as_ref().map_or(tables, |(few, _)| few));
         let fineness = effort.fineness(bricks, directions.len());
         let cells = Cells::new(medium, &channels, fineness, cancel)?;
         let blocks = channels.blocks();
@@ -202,6 +205,7 @@ impl FireLight {
             tree,
             escape,
             columns: Columns::new(&scene.flame, cells),
+            spread: reduced.map(|(few, spread)| (few.nodes.len(), spread)),
         })
     }
 
@@ -273,7 +277,17 @@ impl FireLight {
                 }
             }
         }
-        for (found, sum) in found.iter_mut().zip(sums.as_flattened()) {
+        let sums = sums.as_flattened();
+        let mut features = sums;
+        let mut rest = found;
+        if let Some((few, spread)) = &self.spread {
+            let (nodes, others) = rest.split_at_mut(spread.len());
+            for (which, found) in nodes.iter_mut().enumerate() {
+                *found = spread.at(which, |i| sums[i]);
+            }
+            (features, rest) = (&sums[*few..], others);
+        }
+        for (found, sum) in rest.iter_mut().zip(features) {
             *found = *sum;
         }
     }

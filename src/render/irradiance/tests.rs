@@ -53,6 +53,7 @@ pub(super) fn flame_of(
         soot_hold: crate::physics::soot::Hold::default(),
         soot_amount: 1.0,
         smoke_amount: 0.0,
+        smoke_left_out: None,
         glow,
         air: Air::default(),
         interpolation: Interpolation::Trilinear,

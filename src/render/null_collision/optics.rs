@@ -154,13 +154,11 @@ impl Optics {
     /// glows without.
     pub(super) fn emission(&self, node: usize, place: &Place) -> f64 {
         let node = &self.nodes[node];
-        match node.radicals {
-            Some(emission) => emission * place.flame,
-            None => {
-                let sigma_a = node.absorption * place.soot;
-                sigma_a * blackbody::spectral_radiance(node.lambda_nm, place.kelvin)
-            }
+        if let Some(emission) = node.radicals {
+            return emission * place.flame;
         }
+        let sigma_a = node.absorption * place.soot;
+        sigma_a * blackbody::spectral_radiance(node.lambda_nm, place.kelvin)
     }
 
     /// X, Y, Z of what came at all wavelengths, the set's and the radicals'.

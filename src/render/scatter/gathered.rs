@@ -99,6 +99,23 @@ impl<'a> Gathered<'a> {
         }
     }
 
+    /// The same before any light came, for other cells of the same size.
+    pub(super) fn emptied<'b>(&self, cells: &'b Cells) -> Gathered<'b> {
+        Gathered {
+            cells,
+            lobe: self.lobe.clone(),
+            to_eye: self.to_eye.clone(),
+            light: vec![[0.0; WIDE]; self.light.len()],
+            luminous: self.luminous,
+            sum: vec![0.0; self.sum.len()],
+        }
+    }
+
+    /// The colour by which light is counted.
+    pub(super) fn luminous(&self) -> usize {
+        self.luminous
+    }
+
     /// Adds the light of one direction.
     pub(super) fn take(&mut self, sweep: &Sweep<'_>, light: &[Chunk], direction: DVec3) {
         let [x, y, _] = self.cells.size;

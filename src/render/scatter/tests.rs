@@ -40,6 +40,7 @@ pub(in crate::render) fn scene(volume: Volume, radius_nm: f64, asymmetry: Option
         soot_hold: Hold::Volume,
         soot_amount: 1.0,
         smoke_amount: 1.0,
+        smoke_left_out: None,
         glow: GlowParams::default(),
         air: Air::default(),
         interpolation: Interpolation::default(),
@@ -66,6 +67,8 @@ pub(in crate::render) fn plan(scene: &Scene) -> Plan {
         scattering_orders: 1,
         effects: Effects {
             scattering: Switch::On,
+            wavelengths: Switch::Off,
+            scattering_orders: Switch::Off,
             ..Effects::AUTO
         },
     };
@@ -134,7 +137,8 @@ fn the_middle_of_an_even_ball_sees_its_closed_form_from_all_sides() {
         let radius = 20.0;
         let scene = scene(ball(radius, 2e-6, 1700.0), 60.0, Some(asymmetry));
         let plan = plan(&scene);
-        let field = InScatter::new(&scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
+        let field =
+            InScatter::new(&scene, &plan.tables, false, Level::Fine, &Cancel::never()).unwrap();
         let found = read(&scene, &plan, &field, middle(&scene));
         for (i, &nm) in plan.tables.wavelengths.nodes_nm.iter().enumerate() {
             let absorbed = scene.flame.absorption_per_sample(nm) * 2e-6;
@@ -154,7 +158,8 @@ fn a_deep_ball_is_a_furnace_whatever_the_asymmetry() {
     for asymmetry in [-0.9, 0.0, 0.9] {
         let scene = scene(ball(20.0, 1e-4, 1700.0), 60.0, Some(asymmetry));
         let plan = plan(&scene);
-        let field = InScatter::new(&scene, &plan.tables, Level::Coarse, &Cancel::never()).unwrap();
+        let field =
+            InScatter::new(&scene, &plan.tables, false, Level::Coarse, &Cancel::never()).unwrap();
         let found = read(&scene, &plan, &field, middle(&scene));
         for (i, &nm) in plan.tables.wavelengths.nodes_nm.iter().enumerate() {
             let absorbed = scene.flame.absorption_per_sample(nm);
@@ -252,8 +257,9 @@ fn the_field_agrees_with_rays_in_all_directions_from_single_places() {
     for asymmetry in [0.0, 0.5] {
         let scene = scene(procedural::torch(), 60.0, Some(asymmetry));
         let plan = plan(&scene);
-        let fields = [Level::Fine, Level::Coarse]
-            .map(|level| InScatter::new(&scene, &plan.tables, level, &Cancel::never()).unwrap());
+        let fields = [Level::Fine, Level::Coarse].map(|level| {
+            InScatter::new(&scene, &plan.tables, false, level, &Cancel::never()).unwrap()
+        });
         let [fine, coarse] = errors(&scene, &plan, &fields, asymmetry)[..] else {
             panic!("two fields")
         };
@@ -274,7 +280,7 @@ fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
             .build()
             .unwrap();
         pool.install(|| {
-            InScatter::new(&scene, &plan.tables, Level::Coarse, &Cancel::never()).unwrap()
+            InScatter::new(&scene, &plan.tables, false, Level::Coarse, &Cancel::never()).unwrap()
         })
     };
     let (one, two) = (with(1), with(2));
@@ -294,7 +300,7 @@ fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
     );
 
     let passed = Cancel::when_passed(Arc::new(1.into()), 0);
-    assert!(InScatter::new(&scene, &plan.tables, Level::Coarse, &passed).is_none());
+    assert!(InScatter::new(&scene, &plan.tables, false, Level::Coarse, &passed).is_none());
 }
 
 #[test]
@@ -309,7 +315,7 @@ fn no_fire_scatters_nothing() {
     );
     let scene = scene(Volume::from_grids(vec![empty], "empty"), 40.0, None);
     let plan = plan(&scene);
-    let field = InScatter::new(&scene, &plan.tables, Level::Fine, &Cancel::never()).unwrap();
+    let field = InScatter::new(&scene, &plan.tables, false, Level::Fine, &Cancel::never()).unwrap();
     let found = read(&scene, &plan, &field, DVec3::ONE);
     assert!(found.iter().all(|light| *light == 0.0));
     assert_eq!(field.orders_left_out(1), 0.0);

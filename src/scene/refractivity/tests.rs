@@ -95,6 +95,7 @@ impl Gas {
             soot_hold: Hold::Volume,
             soot_amount: 1.0,
             smoke_amount: 1.0,
+            smoke_left_out: None,
             glow: GlowParams {
                 clear_k: self.clear_k,
                 ..GlowParams::default()

@@ -1,0 +1,145 @@
+//! What leaving an effect out changes in the picture at most, ΔE_ITP.
+//!
+//! Nothing is rendered for it: a [`Sketch`] of brick means with the effect's most and without it says how far apart two
+//! pictures can be. Each bound is checked against pictures with and without the effect in `tests/bounds.rs`.
+
+use super::sketch::{self, Matter, Sketch};
+use crate::physics::soot::volume_fraction_factor;
+use crate::scene::means::BrickMean;
+use crate::scene::{FlameParams, Scene};
+
+/// Above this, how much more makes no difference to anyone, ΔE_ITP: white against black.
+const MOST: f64 = 400.0;
+
+/// Where smoke takes most of the light that counts, nm.
+const SMOKE_NM: f64 = 400.0;
+
+/// Scattering once: what it takes away, and what it brings.
+pub(super) fn scattering(sketch: &Sketch<'_>) -> f64 {
+    let plain = sketch.picture(|brick| sketch.with_radicals(brick), true);
+    let less = sketch.picture(|brick| sketch.scattered_away(brick), true);
+    let more = sketch.picture(|brick| sketch.scattered_here(brick), true);
+    sketch::greatest(&plain, &less).max(sketch::greatest(&plain, &more))
+}
+
+/// Scattering more than once.
+pub(super) fn orders(sketch: &Sketch<'_>) -> f64 {
+    let once = sketch.picture(|brick| sketch.scattered_here(brick), true);
+    let often = sketch.picture(|brick| sketch.scattered_often(brick), true);
+    sketch::greatest(&once, &often)
+}
+
+/// The light of radicals.
+pub(super) fn radicals(sketch: &Sketch<'_>) -> f64 {
+    let without = sketch.picture(|brick| sketch.plain(brick), false);
+    let with = sketch.picture(|brick| sketch.with_radicals(brick), false);
+    sketch::greatest(&without, &with)
+}
+
+/// Lines and bands of a metal: as bright as if they were thin, and of the colour that counts most.
+pub(super) fn lines(sketch: &Sketch<'_>) -> f64 {
+    let range_nm = [360.0, 830.0];
+    let glow = sketch.flame.glow();
+    let shines = |brick: &BrickMean| {
+        let mut matter = sketch.plain(brick);
+        if brick.hottest_k > 0.0 {
+            let gas = glow.coefficients(range_nm, brick.hottest_k, 0.0);
+            let light = gas.emission * (range_nm[1] - range_nm[0]);
+            matter.gas = [light; 3];
+        }
+        matter
+    };
+    let without = sketch.picture(|brick| sketch.plain(brick), false);
+    let with = sketch.picture(shines, false);
+    sketch::greatest(&without, &with)
+}
+
+/// The fire's light on what stands around.
+pub(super) fn fire_light(sketch: &Sketch<'_>) -> f64 {
+    let matter = |brick: &BrickMean| -> Matter { sketch.with_radicals(brick) };
+    let dark = sketch.picture(matter, false);
+    let lit = sketch.picture(matter, true);
+    sketch::greatest(&lit, &dark)
+}
+
+/// By how much gas may bend a ray, rad, and how far that moves what is seen of the fire itself, voxels.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bend {
+    pub(super) angle_rad: f64,
+    pub(super) voxels: f64,
+}
+
+/// From the steepest places of all bricks along a ray: as if they all bent it the same way. `None` where nothing bends.
+///
+/// n − 1 goes as 1/T, nearly: ∇n = (n − 1) T ∇(1/T).
+pub(super) fn bend(scene: &Scene, sketch: &Sketch<'_>, nm: f64) -> Option<Bend> {
+    let flame = &scene.flame;
+    let bent = flame.bending()?;
+    let air = &bent.air;
+    let gas = air.gas(bent.fuel).ok()?;
+    let dispersion = crate::physics::moist_air::Dispersion::at(nm).ok()?;
+    let excess = gas.refractivity(dispersion, air.temperature_k, 0.0) * bent.bending.gain;
+    let angle_rad = sketch.most_along(|brick| excess * air.temperature_k * brick.steepest);
+    let voxel_m = flame.medium().voxel_size_m();
+    (angle_rad > 0.0).then(|| Bend {
+        angle_rad,
+        voxels: 0.5 * angle_rad * sketch.longest_m() / voxel_m,
+    })
+}
+
+/// Steepest change of a fire's light from voxel to voxel, as a share of it: over a voxel soot ends, and light is gone.
+const STEEPEST: f64 = 1.0;
+
+/// Bent light: what is seen of the fire is moved by so many voxels, and what lies behind by so many pixels.
+pub(super) fn refraction(scene: &Scene, bend: Bend, size: [u32; 2]) -> f64 {
+    let of_fire = sketch::of_share(STEEPEST * bend.voxels);
+    let behind = if scene.stage.shows_behind() {
+        shift_px(scene, bend.angle_rad, size) * PIXEL
+    } else {
+        0.0
+    };
+    of_fire.max(behind).min(MOST)
+}
+
+/// Colours that go apart: only what lies behind is seen so.
+pub(super) fn dispersion(scene: &Scene, apart_rad: f64, size: [u32; 2]) -> f64 {
+    if scene.stage.backdrop.is_some() {
+        (shift_px(scene, apart_rad, size) * PIXEL).min(MOST)
+    } else {
+        0.0
+    }
+}
+
+/// What a pixel changes where a pattern of black and white is moved by a whole one, ΔE_ITP, for the hundredth of pixels that
+/// changes most: one in fifty lies at an edge.
+const PIXEL: f64 = 20.0;
+
+/// How far a bend by an angle moves what lies behind, pixels of a picture.
+fn shift_px(scene: &Scene, angle_rad: f64, size: [u32; 2]) -> f64 {
+    let Ok(view) = scene.camera.view(size) else {
+        return 0.0;
+    };
+    let [x, y] = size.map(|side| 0.5 * f64::from(side));
+    let pixel = view
+        .ray(x, y)
+        .direction
+        .angle_between(view.ray(x + 1.0, y).direction);
+    angle_rad / pixel
+}
+
+/// Smoke of a greatest volume fraction, beside soot of one, on a way of so many metres, ΔE_ITP: what it takes from light, and
+/// what it adds if all of it is as hot as the hottest soot. Known before anything is packed.
+pub fn smoke(smoke: f64, soot: f64, flame: &FlameParams, way_m: f64) -> f64 {
+    let law = flame.fuel.soot_law(flame.soot_model);
+    let albedo = flame.scattering.map_or(0.0, |it| it.smoke_albedo);
+    let extinction = law.absorption_per_volume_fraction(SMOKE_NM) / (1.0 - albedo)
+        * volume_fraction_factor(flame.soot_hold, flame.soot_radius_nm);
+    let taken = extinction * smoke * way_m;
+    let glow = smoke / soot;
+    if !(taken.is_finite() && glow.is_finite()) {
+        return MOST;
+    }
+    sketch::of_share(-taken.min(1.0))
+        .max(sketch::in_the_dark(glow))
+        .min(MOST)
+}

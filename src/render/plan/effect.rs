@@ -1,0 +1,153 @@
+//! The effects that a scene may call for, and what was decided about each.
+
+use crate::render::{Effects, Switch};
+
+/// Something that a picture may show or leave out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Effect {
+    /// Soot that glows and absorbs.
+    Soot,
+    /// Smoke beside the soot, which mostly absorbs.
+    Smoke,
+    /// Lines and bands of a salt's metal.
+    Lines,
+    /// Light of radicals where gas burns.
+    Chemiluminescence,
+    /// The fire's own light, scattered once.
+    Scattering,
+    /// Light scattered more than once.
+    ScatteringOrders,
+    /// Light bent by hot gas.
+    Refraction,
+    /// Colours bent differently.
+    Dispersion,
+    /// The fire as a light for the stage.
+    FireLight,
+    /// More wavelengths than the quality asks for.
+    Wavelengths,
+}
+
+impl Effect {
+    /// Every effect, in the order in which they are told.
+    pub const ALL: [Self; 10] = [
+        Self::Soot,
+        Self::Smoke,
+        Self::Lines,
+        Self::Chemiluminescence,
+        Self::Scattering,
+        Self::ScatteringOrders,
+        Self::Refraction,
+        Self::Dispersion,
+        Self::FireLight,
+        Self::Wavelengths,
+    ];
+
+    /// Its name in statistics and, where a person can switch it, in the scene file's `[effects]`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Soot => "emission-absorption",
+            Self::Smoke => "smoke",
+            Self::Lines => "lines",
+            Self::Chemiluminescence => "chemiluminescence",
+            Self::Scattering => "scattering",
+            Self::ScatteringOrders => "scattering_orders",
+            Self::Refraction => "refraction",
+            Self::Dispersion => "dispersion",
+            Self::FireLight => "fire_light",
+            Self::Wavelengths => "wavelengths",
+        }
+    }
+
+    /// What a person asked for. Wavelengths are asked for by their number, soot by its amount.
+    pub fn switch(self, effects: &Effects) -> Switch {
+        match self {
+            Self::Lines => effects.lines,
+            Self::Chemiluminescence => effects.chemiluminescence,
+            Self::Scattering => effects.scattering,
+            Self::Refraction => effects.refraction,
+            Self::Dispersion => effects.dispersion,
+            Self::FireLight => effects.fire_light,
+            Self::Smoke => effects.smoke,
+            Self::Wavelengths => effects.wavelengths,
+            Self::ScatteringOrders => effects.scattering_orders,
+            Self::Soot => Switch::Auto,
+        }
+    }
+}
+
+/// Whether an effect is computed, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision {
+    /// Which.
+    pub effect: Effect,
+    /// What a person asked for.
+    pub switch: Switch,
+    /// Whether it is computed.
+    pub on: bool,
+    /// What leaving it out changes in the picture at most, ΔE_ITP; `None` where that is not known.
+    pub bound: Option<f64>,
+    /// Why, for a person.
+    pub reason: String,
+}
+
+impl Decision {
+    /// Whether it is computed, in words.
+    pub fn state(&self) -> &'static str {
+        if self.on { "computed" } else { "left out" }
+    }
+
+    /// What leaving it out changes in words: "at most 12 ΔE", "under 0.01 ΔE"; `None` where that is not known, or nothing.
+    pub fn change(&self) -> Option<String> {
+        let bound = self.bound.filter(|bound| self.on || *bound > 0.0)?;
+        Some(if bound < LEAST_TOLD {
+            format!("under {LEAST_TOLD} ΔE")
+        } else {
+            format!("at most {} ΔE", figures(bound))
+        })
+    }
+}
+
+/// The least change that is told as a number, ΔE_ITP.
+const LEAST_TOLD: f64 = 0.01;
+
+/// A number with two digits that count.
+pub(super) fn figures(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = (1 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{value:.digits$}")
+}
+
+impl Effects {
+    /// The same, with what was automatic as it was decided: for the next frames of a sequence, in which nothing may come and
+    /// go, and for whoever looks closer at a picture.
+    #[must_use]
+    pub fn as_decided(self, decisions: &[Decision]) -> Self {
+        let locked = |effect: Effect| {
+            let decided = decisions.iter().find(|it| it.effect == effect);
+            match (effect.switch(&self), decided) {
+                (Switch::Auto, Some(decision)) if decision.on => Switch::On,
+                (Switch::Auto, Some(_)) => Switch::Off,
+                (switch, _) => switch,
+            }
+        };
+        Self {
+            lines: locked(Effect::Lines),
+            chemiluminescence: locked(Effect::Chemiluminescence),
+            scattering: locked(Effect::Scattering),
+            scattering_orders: locked(Effect::ScatteringOrders),
+            refraction: locked(Effect::Refraction),
+            dispersion: locked(Effect::Dispersion),
+            fire_light: locked(Effect::FireLight),
+            // What is packed is decided before.
+            smoke: self.smoke,
+            wavelengths: locked(Effect::Wavelengths),
+        }
+    }
+}
+
+/// Whether an effect is computed.
+pub(in crate::render) fn is_on(decisions: &[Decision], effect: Effect) -> bool {
+    decisions.iter().any(|it| it.effect == effect && it.on)
+}

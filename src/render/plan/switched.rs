@@ -1,0 +1,108 @@
+//! A plan beside a plan: the same picture with one effect switched the other way, to measure what that effect takes.
+
+use super::effect::{Effect, is_on};
+use super::{Plan, wavelengths};
+use crate::render::fields::Fields;
+use crate::render::{Cancel, Level, Settings};
+use crate::scene::Scene;
+
+impl Plan {
+    /// The plan with one effect switched the other way, and what cannot be without it left out as well. `None` where that
+    /// makes no picture of this scene: the effect has nothing to act on, or the scene was packed with it or without.
+    pub(in crate::render) fn switched(
+        &self,
+        scene: &Scene,
+        settings: &Settings,
+        effect: Effect,
+    ) -> Option<Self> {
+        let was_on = is_on(&self.decisions, effect);
+        let here = self.decisions.iter().find(|it| it.effect == effect)?;
+        let changes_nothing = !was_on && here.bound == Some(0.0);
+        if changes_nothing || !self.acts_on_something(scene, effect) {
+            return None;
+        }
+        let mut decisions = self.decisions.clone();
+        for decision in &mut decisions {
+            let needs_it = matches!(
+                (effect, decision.effect),
+                (Effect::Scattering, Effect::ScatteringOrders)
+                    | (Effect::Refraction, Effect::Dispersion)
+            );
+            if decision.effect == effect {
+                decision.on = !was_on;
+            } else if needs_it && was_on {
+                decision.on = false;
+            }
+        }
+        let nodes = if effect == Effect::Wavelengths {
+            let scattering = decisions.iter().find(|it| it.effect == Effect::Scattering);
+            let scattered = scattering.map_or(0.0, wavelengths::scattered_share);
+            wavelengths::of(scene, settings.wavelengths, scattered)
+        } else {
+            self.tables.wavelengths.clone()
+        };
+        let features = scene.flame.glow().features();
+        Some(Self::deciding(scene, settings, nodes, features, decisions))
+    }
+
+    /// Whether this scene, as it is packed, can show the effect.
+    fn acts_on_something(&self, scene: &Scene, effect: Effect) -> bool {
+        let (flame, stage) = (&scene.flame, &scene.stage);
+        match effect {
+            // Soot and smoke are packed or not.
+            Effect::Soot | Effect::Smoke => false,
+            Effect::Lines => flame.glow().has_metal(),
+            Effect::Chemiluminescence => flame.glow().has_radicals(),
+            Effect::Scattering => flame.scattering().is_some(),
+            Effect::ScatteringOrders => self.wanted.scatter,
+            Effect::Refraction => flame.bending().is_some(),
+            Effect::Dispersion => self.wanted.bent.is_some() && stage.backdrop.is_some(),
+            Effect::FireLight => stage.has_surfaces(),
+            // What more of them would be is only known where more are taken.
+            Effect::Wavelengths => is_on(&self.decisions, effect),
+        }
+    }
+
+    fn is_as_large_as(&self, other: &Self) -> bool {
+        let sizes = |plan: &Self| [plan.tables.nodes.len(), plan.tables.features.len()];
+        sizes(self) == sizes(other)
+    }
+
+    /// Whether another plan's fields hold all that this one wants.
+    pub(in crate::render) fn takes_fields_over(&self, other: &Self) -> bool {
+        let (mine, theirs) = (self.wanted, other.wanted);
+        let has_none = !mine.scatter && !mine.fire_light;
+        let has_its = (!mine.scatter || (theirs.scatter && mine.again == theirs.again))
+            && (!mine.fire_light || theirs.fire_light);
+        has_none || (has_its && self.is_as_large_as(other))
+    }
+
+    /// This plan's fine fields, where those of another that are of the same kind and size stand in for its own: a march
+    /// through them takes the same time. `None` if cancelled.
+    pub(in crate::render) fn fields_beside(
+        &self,
+        scene: &Scene,
+        other: &Self,
+        theirs: &Fields,
+        cancel: &Cancel,
+    ) -> Option<Fields> {
+        let alike = self.is_as_large_as(other);
+        let mut known = if self.wanted.bent == other.wanted.bent {
+            let mut known = Fields::default();
+            known.bent.clone_from(&theirs.bent);
+            known.seconds.bent = theirs.seconds.bent;
+            known
+        } else {
+            self.bent(scene)
+        };
+        if alike && self.wanted.scatter && self.wanted.again == other.wanted.again {
+            known.scatter.clone_from(&theirs.scatter);
+            known.seconds.scatter = theirs.seconds.scatter;
+        }
+        if alike && self.wanted.fire_light {
+            known.fire_light.clone_from(&theirs.fire_light);
+            known.seconds.fire_light = theirs.seconds.fire_light;
+        }
+        Fields::new(scene, &self.tables, self.wanted, known, Level::Fine, cancel)
+    }
+}
