@@ -200,7 +200,7 @@ fn statistics_have_the_keys_that_scripts_read() {
             ("lines", "off"),
             ("chemiluminescence", "off"),
             ("scattering", "on"),
-            ("scattering_orders", "off"),
+            ("scattering_orders", "on"),
             ("refraction", "on"),
             ("dispersion", "off"),
             ("fire_light", "off"),

@@ -41,10 +41,19 @@ pub fn exposure(pixels: &[[f64; 3]]) -> Option<f64> {
 
 /// The difference of a picture from a reference of the same scene and size, in X, Y, Z.
 pub fn difference(reference: &[[f64; 3]], other: &[[f64; 3]]) -> Difference {
-    let Some(exposure) = exposure(reference) else {
+    difference_seen(reference, reference, other)
+}
+
+/// The same between two pictures at the exposure of a third.
+pub fn difference_seen(
+    exposed: &[[f64; 3]],
+    reference: &[[f64; 3]],
+    other: &[[f64; 3]],
+) -> Difference {
+    let Some(exposure) = exposure(exposed) else {
         return Difference::default();
     };
-    let darkest = LIT * peak(reference);
+    let darkest = LIT * peak(exposed);
     let mut apart: Vec<f64> = reference
         .iter()
         .zip(other)

@@ -81,7 +81,9 @@ impl Fields {
     ) -> Option<Self> {
         let mut fields = known;
         if wanted.scatter && fields.scatter.is_none() {
-            let work = || InScatter::new(scene, tables, wanted.again, level, cancel);
+            // A coarse picture is not worth more than what is scattered once.
+            let again = wanted.again && level == Level::Fine;
+            let work = || InScatter::new(scene, tables, again, level, cancel);
             let (made, seconds) = timed(work);
             fields.scatter = Some(Arc::new(made?));
             fields.seconds.scatter = seconds;

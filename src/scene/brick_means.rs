@@ -1,7 +1,7 @@
-//! What a medium holds and sends out brick by brick: means over whole bricks, from which bounds are worked out.
+//! What a medium holds and sends out, by means over eighths of bricks, from which bounds are worked out.
 //!
-//! A mean is of all samples of a brick, so no light of the file is missed however thin a sheet it comes from. What comes to
-//! a place from the whole fire is summed over blocks of bricks as if nothing stood in the way:
+//! A mean is of all samples of a part, so no light of the file is missed however thin a sheet it comes from. What comes to
+//! a place from the whole fire is summed over blocks of parts as if nothing stood in the way:
 //!
 //! ```text
 //! G(x) = 1/(4π) Σ_b E_b V_b/|x − x_b|²,   E_b r_b for the block itself, r_b the radius of the ball of its volume
@@ -10,7 +10,7 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | E_b | mean of f_v B(λ, T) in a block, or of the flame field | W m⁻² sr⁻¹ nm⁻¹, 1 |
-//! | V_b | volume of its bricks | m³ |
+//! | V_b | volume of its parts | m³ |
 //! | G | mean over all directions of what arrives, for a unit of absorption for each f_v | the same times m |
 //!
 //! No law of soot is in it: it is worked out once for each packed medium. For a ball of even light the block's own term is
@@ -22,7 +22,7 @@ use std::sync::LazyLock;
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 
-use super::means::{BrickMean, Lamp, MEANS, MEANS_NM, Means};
+use super::means::{Lamp, MEANS, MEANS_NM, Means, PART_EDGE, PARTS, PartMean};
 use super::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES};
 use crate::math::lanes;
 use crate::physics::blackbody;
@@ -31,7 +31,7 @@ use crate::physics::blackbody;
 const MOST_BLOCKS: usize = 1000;
 
 impl Medium {
-    /// Means over each stored brick, worked out when they are asked for first.
+    /// Means over the parts of each stored brick, worked out when they are asked for first.
     pub(crate) fn means(&self) -> &Means {
         self.means.get_or_init(|| of_medium(self))
     }
@@ -40,63 +40,94 @@ impl Medium {
 /// The means of a medium.
 fn of_medium(medium: &Medium) -> Means {
     let samples = medium.samples.par_chunks_exact(BRICK_SAMPLES);
-    let mut bricks: Vec<BrickMean> = samples
+    let mut parts: Vec<PartMean> = samples
         .enumerate()
-        .map(|(slot, samples)| {
+        .flat_map_iter(|(slot, samples)| {
             let own = slot * BRICK_SAMPLES..(slot + 1) * BRICK_SAMPLES;
-            let beside = |field: &[f32]| field.get(own.clone()).map(mean_of).unwrap_or_default();
-            BrickMean {
-                burning: beside(&medium.flame),
-                smoke: beside(&medium.smoke),
-                steepest: steepest(samples) / medium.voxel_size_m,
-                ..of_samples(samples)
-            }
+            let steepest = steepest(samples) / medium.voxel_size_m;
+            (0..PARTS).map(move |part| {
+                let beside = |field: &[f32]| {
+                    let field = field.get(own.clone());
+                    field.map_or(0.0, |field| mean_of(field, part))
+                };
+                PartMean {
+                    burning: beside(&medium.flame),
+                    smoke: beside(&medium.smoke),
+                    steepest,
+                    ..of_samples(samples, part)
+                }
+            })
         })
         .collect();
-    let blocks = Blocks::new(medium, bricks.len());
-    let lamps = blocks.lamps(&bricks);
-    blocks.light_around(&mut bricks);
-    Means { bricks, lamps }
+    let blocks = Blocks::new(medium, parts.len());
+    let lamps = blocks.lamps(&parts);
+    blocks.light_around(&mut parts);
+    Means { parts, lamps }
 }
 
-/// A share of the samples' weights: those on a face belong to two bricks, on an edge to four.
-fn weight(i: usize) -> f32 {
-    let place = [i % SAMPLES, i / SAMPLES % SAMPLES, i / (SAMPLES * SAMPLES)];
-    let half = |at: usize| if at == 0 || at == BRICK { 0.5 } else { 1.0 };
-    place.map(half).into_iter().product()
-}
-
-static WEIGHTS: LazyLock<Vec<f32>> = LazyLock::new(|| {
-    let voxels = (BRICK * BRICK * BRICK) as f32;
-    (0..BRICK_SAMPLES).map(|i| weight(i) / voxels).collect()
+/// The samples of a part of a brick, and how much each counts: those on a face belong to two parts, on an edge to four.
+static WEIGHTS: LazyLock<[Vec<(usize, f32)>; PARTS]> = LazyLock::new(|| {
+    let of_part = |part: usize| {
+        let first = [part & 1, part >> 1 & 1, part >> 2].map(|half| half * PART_EDGE);
+        let edge = PART_EDGE + 1;
+        let sample = |i: usize| {
+            let within = [i % edge, i / edge % edge, i / (edge * edge)];
+            let half = |at: usize| if at == 0 || at == PART_EDGE { 0.5 } else { 1.0 };
+            let weight: f32 = within.map(half).into_iter().product();
+            let [x, y, z] = [0, 1, 2].map(|axis| first[axis] + within[axis]);
+            let voxels = (PART_EDGE * PART_EDGE * PART_EDGE) as f32;
+            ((z * SAMPLES + y) * SAMPLES + x, weight / voxels)
+        };
+        (0..edge * edge * edge).map(sample).collect()
+    };
+    std::array::from_fn(of_part)
 });
 
-fn mean_of(field: &[f32]) -> f64 {
-    let shares = field.iter().zip(&*WEIGHTS).map(|(value, w)| value * w);
+fn mean_of(field: &[f32], part: usize) -> f64 {
+    let shares = WEIGHTS[part].iter().map(|&(i, w)| field[i] * w);
     f64::from(shares.sum::<f32>())
 }
 
-fn of_samples(samples: &[[f32; 2]]) -> BrickMean {
+fn of_samples(samples: &[[f32; 2]], part: usize) -> PartMean {
     let exponents = MEANS_NM.map(|nm| (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32);
     let (mut soot, mut hottest, mut glow) = (0.0_f32, 0.0_f32, [0.0_f32; MEANS]);
-    for (&[fraction, kelvin], w) in samples.iter().zip(&*WEIGHTS) {
+    let [mut heat, mut squares] = [0.0_f64; 2];
+    for &(i, w) in &WEIGHTS[part] {
+        let [fraction, kelvin] = samples[i];
         hottest = hottest.max(kelvin);
         if fraction <= 0.0 {
             continue;
         }
         soot += w * fraction;
+        let (share, kelvin_f64) = (f64::from(w * fraction), f64::from(kelvin));
+        heat += share * kelvin_f64;
+        squares += share * kelvin_f64 * kelvin_f64;
         let inverse = 1.0 / kelvin;
         for (glow, exponent) in glow.iter_mut().zip(&exponents) {
             let wien = lanes::exp(-exponent * inverse);
             *glow += w * fraction * wien / (1.0 - wien);
         }
     }
+    let cool = if soot > 0.0 {
+        let mean = heat / f64::from(soot);
+        mean - (squares / f64::from(soot) - mean * mean).max(0.0).sqrt()
+    } else {
+        0.0
+    };
+    let dim = |i: usize| {
+        if cool > 1.0 {
+            f64::from(soot) * blackbody::spectral_radiance(MEANS_NM[i], cool)
+        } else {
+            0.0
+        }
+    };
     let scale = |i: usize| blackbody::FIRST_RADIATION_CONSTANT / MEANS_NM[i].powi(5);
-    BrickMean {
+    PartMean {
         soot: f64::from(soot),
         glow: std::array::from_fn(|i| scale(i) * f64::from(glow[i])),
+        dim: std::array::from_fn(dim),
         hottest_k: f64::from(hottest),
-        ..BrickMean::default()
+        ..PartMean::default()
     }
 }
 
@@ -115,50 +146,55 @@ fn steepest(samples: &[[f32; 2]]) -> f64 {
     3.0_f64.sqrt() * f64::from(most)
 }
 
-/// Bricks taken together.
+/// Parts of bricks taken together.
 struct Blocks {
-    /// Block of each slot.
-    of_slot: Vec<usize>,
-    /// Middle of the bricks of each, m, and their volume, m³.
+    /// Block of each part.
+    of_part: Vec<usize>,
+    /// Middle of the parts of each, m, and their volume, m³.
     middles: Vec<DVec3>,
     volumes_m3: Vec<f64>,
 }
 
 impl Blocks {
-    fn new(medium: &Medium, bricks: usize) -> Self {
+    fn new(medium: &Medium, parts: usize) -> Self {
         let world_from_lattice = medium.lattice_from_world.inverse();
-        let brick_m3 = (BRICK as f64 * medium.voxel_size_m).powi(3);
+        let part_m3 = (PART_EDGE as f64 * medium.voxel_size_m).powi(3);
         let [width, height, _] = medium.bricks.to_array().map(|side| side as usize);
-        let place = |i: usize| {
-            let place = [i % width, i / width % height, i / (width * height)];
-            UVec3::from(place.map(|at| at as u32))
+        let brick = |i: usize| {
+            UVec3::from([i % width, i / width % height, i / (width * height)].map(|at| at as u32))
         };
         let mut edge = 1;
         loop {
-            let counts = (medium.bricks + (edge - 1)) / edge;
-            let mut number =
-                vec![usize::MAX; counts.as_usizevec3().to_array().iter().product::<usize>()];
+            let counts = (2 * medium.bricks)
+                .map(|side| side.div_ceil(edge))
+                .as_usizevec3();
+            let mut number = vec![usize::MAX; counts.x * counts.y * counts.z];
             let mut blocks = Self {
-                of_slot: vec![0; bricks],
+                of_part: vec![0; parts],
                 middles: Vec::new(),
                 volumes_m3: Vec::new(),
             };
-            for (i, &slot) in medium.table.iter().enumerate() {
-                if slot == NO_BRICK {
-                    continue;
-                }
-                let at = (place(i) / edge).as_usizevec3();
-                let counts = counts.as_usizevec3();
+            let stored = medium
+                .table
+                .iter()
+                .enumerate()
+                .filter(|(_, slot)| **slot != NO_BRICK);
+            for ((i, &slot), part) in
+                stored.flat_map(|brick| (0..PARTS).map(move |part| (brick, part)))
+            {
+                let half = UVec3::from([part & 1, part >> 1 & 1, part >> 2].map(|at| at as u32));
+                let place = 2 * brick(i) + half;
+                let at = (place / edge).as_usizevec3();
                 let number = &mut number[(at.z * counts.y + at.y) * counts.x + at.x];
                 if *number == usize::MAX {
                     *number = blocks.middles.len();
                     blocks.middles.push(DVec3::ZERO);
                     blocks.volumes_m3.push(0.0);
                 }
-                blocks.of_slot[slot as usize] = *number;
-                let middle = (place(i).as_dvec3() + 0.5) * BRICK as f64;
-                blocks.middles[*number] += world_from_lattice.transform_point3(middle) * brick_m3;
-                blocks.volumes_m3[*number] += brick_m3;
+                blocks.of_part[slot as usize * PARTS + part] = *number;
+                let middle = (place.as_dvec3() + 0.5) * PART_EDGE as f64;
+                blocks.middles[*number] += world_from_lattice.transform_point3(middle) * part_m3;
+                blocks.volumes_m3[*number] += part_m3;
             }
             if blocks.middles.len() <= MOST_BLOCKS {
                 let volumes = blocks.middles.iter_mut().zip(&blocks.volumes_m3);
@@ -169,17 +205,17 @@ impl Blocks {
         }
     }
 
-    /// Sums of N numbers of each brick over each block, times the volume.
+    /// Sums of N numbers of each part over each block, times the volume.
     fn summed<const N: usize>(
         &self,
-        means: &[BrickMean],
-        of: impl Fn(&BrickMean) -> [f64; N],
+        means: &[PartMean],
+        of: impl Fn(&PartMean) -> [f64; N],
     ) -> Vec<[f64; N]> {
         let mut sums = vec![[0.0; N]; self.middles.len()];
-        let brick_m3 = self.volumes_m3.iter().sum::<f64>() / means.len().max(1) as f64;
-        for (mean, &block) in means.iter().zip(&self.of_slot) {
+        let part_m3 = self.volumes_m3.iter().sum::<f64>() / means.len().max(1) as f64;
+        for (mean, &block) in means.iter().zip(&self.of_part) {
             for (sum, value) in sums[block].iter_mut().zip(of(mean)) {
-                *sum += brick_m3 * value;
+                *sum += part_m3 * value;
             }
         }
         sums
@@ -209,7 +245,7 @@ impl Blocks {
     }
 
     /// Each as one light.
-    fn lamps(&self, means: &[BrickMean]) -> Vec<Lamp> {
+    fn lamps(&self, means: &[PartMean]) -> Vec<Lamp> {
         let sums = self.summed(means, |mean| {
             let [a, b, c, d] = mean.glow;
             [a, b, c, d, mean.burning]
@@ -227,12 +263,12 @@ impl Blocks {
     }
 
     /// Fills in what arrives from all sides.
-    fn light_around(&self, means: &mut [BrickMean]) {
+    fn light_around(&self, means: &mut [PartMean]) {
         let fresh = self.around(&self.summed(means, |mean| {
             let [a, b, c, d] = mean.glow;
             [a, b, c, d, mean.burning]
         }));
-        for (mean, &block) in means.iter_mut().zip(&self.of_slot) {
+        for (mean, &block) in means.iter_mut().zip(&self.of_part) {
             let [glow @ .., burning] = fresh[block];
             (mean.glow_around, mean.burning_around) = (glow, burning);
         }
@@ -243,7 +279,7 @@ impl Blocks {
             let ([a, b, c, d], [e, f, g, h]) = (of(soot), of(mean.smoke));
             [a, b, c, d, e, f, g, h]
         }));
-        for (mean, &block) in means.iter_mut().zip(&self.of_slot) {
+        for (mean, &block) in means.iter_mut().zip(&self.of_part) {
             let [a, b, c, d, e, f, g, h] = scattered[block];
             mean.scattered_around = [[a, b, c, d], [e, f, g, h]];
         }
@@ -300,9 +336,9 @@ mod tests {
     #[test]
     fn means_hold_all_soot_and_all_light() {
         let medium = ball(30.0);
-        let means = of_medium(&medium).bricks;
+        let means = of_medium(&medium).parts;
         let voxels = means.iter().map(|mean| mean.soot).sum::<f64>() / FRACTION
-            * (BRICK * BRICK * BRICK) as f64;
+            * (PART_EDGE * PART_EDGE * PART_EDGE) as f64;
         let ball = 4.0 / 3.0 * PI * f64::powi(30.0, 3);
         assert!((voxels / ball - 1.0).abs() < 0.01, "{voxels}, {ball}");
         for (i, &nm) in MEANS_NM.iter().enumerate() {
@@ -320,7 +356,7 @@ mod tests {
         // middles of the outermost bricks lie outside.
         let radius = 40.0;
         let medium = ball(radius);
-        let means = of_medium(&medium).bricks;
+        let means = of_medium(&medium).parts;
         let planck = blackbody::spectral_radiance(MEANS_NM[1], KELVIN);
         let middle_most = means.iter().map(|mean| mean.glow_around[1]);
         let found = middle_most.fold(0.0, f64::max) / (FRACTION * planck * radius * VOXEL_M);
@@ -332,6 +368,6 @@ mod tests {
 
     #[test]
     fn nothing_has_no_means() {
-        assert!(of_medium(&crate::scene::packing::empty()).bricks.is_empty());
+        assert!(of_medium(&crate::scene::packing::empty()).parts.is_empty());
     }
 }

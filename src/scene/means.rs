@@ -1,4 +1,4 @@
-//! Means of what a medium holds and sends out, brick by brick: what bounds are made of. How they are taken is in
+//! Means of what a medium holds and sends out, part by part of its bricks: what bounds are made of. How they are taken is in
 //! [`super::brick_means`].
 
 use std::sync::LazyLock;
@@ -12,6 +12,10 @@ pub(crate) const MEANS: usize = 4;
 /// Ends of their interval, nm: that of the fitted sets.
 const RANGE_NM: [f64; 2] = [410.0, 690.0];
 
+/// Parts of a brick: its eighths; and their edge in voxels.
+pub(crate) const PARTS: usize = 8;
+pub(crate) const PART_EDGE: usize = 4;
+
 /// One number for each of these wavelengths.
 pub(crate) type Spectrum = [f64; MEANS];
 
@@ -21,14 +25,16 @@ pub(crate) static MEANS_NM: LazyLock<Spectrum> = LazyLock::new(|| {
     std::array::from_fn(|i| nodes[i])
 });
 
-/// Means of one brick.
+/// Means of one part.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct BrickMean {
+pub(crate) struct PartMean {
     /// Volume fraction of all soot, and of what of it is smoke.
     pub(crate) soot: f64,
     pub(crate) smoke: f64,
     /// f_v B at each wavelength, W m⁻² sr⁻¹ nm⁻¹.
     pub(crate) glow: Spectrum,
+    /// f_v B at the soot's mean temperature less its standard deviation: what its cooler places give.
+    pub(crate) dim: Spectrum,
     /// Flame field.
     pub(crate) burning: f64,
     /// Temperature of the hottest sample, K.
@@ -42,10 +48,10 @@ pub(crate) struct BrickMean {
     pub(crate) steepest: f64,
 }
 
-/// Bricks taken together as one light.
+/// Parts taken together as one light.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lamp {
-    /// Middle of its bricks, m.
+    /// Middle of its parts, m.
     pub(crate) middle: DVec3,
     /// Radius of the ball of their volume, m.
     pub(crate) radius_m: f64,
@@ -57,8 +63,8 @@ pub(crate) struct Lamp {
 /// Means of a medium.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Means {
-    /// Of all stored bricks, in the order of their slots.
-    pub(crate) bricks: Vec<BrickMean>,
+    /// Of the [`PARTS`] parts of all stored bricks, in the order of their slots, x fastest.
+    pub(crate) parts: Vec<PartMean>,
     /// The same light from afar.
     pub(crate) lamps: Vec<Lamp>,
 }

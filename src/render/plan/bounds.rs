@@ -5,7 +5,7 @@
 
 use super::sketch::{self, Matter, Sketch};
 use crate::physics::soot::volume_fraction_factor;
-use crate::scene::means::BrickMean;
+use crate::scene::means::PartMean;
 use crate::scene::{FlameParams, Scene};
 
 /// Above this, how much more makes no difference to anyone, ΔE_ITP: white against black.
@@ -19,14 +19,35 @@ pub(super) fn scattering(sketch: &Sketch<'_>) -> f64 {
     let plain = sketch.picture(|brick| sketch.with_radicals(brick), true);
     let less = sketch.picture(|brick| sketch.scattered_away(brick), true);
     let more = sketch.picture(|brick| sketch.scattered_here(brick), true);
-    sketch::greatest(&plain, &less).max(sketch::greatest(&plain, &more))
+    let cool = sketch.picture(|part| sketch.cooler(part, sketch.plain(part)), true);
+    let cool_more = sketch.picture(
+        |part| sketch.cooler(part, sketch.scattered_here(part)),
+        true,
+    );
+    sketch::greatest(&plain, &less)
+        .max(sketch::greatest(&plain, &more))
+        .max(sketch::greatest_seen(&plain, &cool, &cool_more))
+        .min(MOST)
 }
 
 /// Scattering more than once.
 pub(super) fn orders(sketch: &Sketch<'_>) -> f64 {
     let once = sketch.picture(|brick| sketch.scattered_here(brick), true);
     let often = sketch.picture(|brick| sketch.scattered_often(brick), true);
+    let [cool, cool_often] = [false, true].map(|again| {
+        let matter = |part: &PartMean| {
+            let matter = if again {
+                sketch.scattered_often(part)
+            } else {
+                sketch.scattered_here(part)
+            };
+            sketch.cooler(part, matter)
+        };
+        sketch.picture(matter, true)
+    });
     sketch::greatest(&once, &often)
+        .max(sketch::greatest_seen(&once, &cool, &cool_often))
+        .min(MOST)
 }
 
 /// The light of radicals.
@@ -40,7 +61,7 @@ pub(super) fn radicals(sketch: &Sketch<'_>) -> f64 {
 pub(super) fn lines(sketch: &Sketch<'_>) -> f64 {
     let range_nm = [360.0, 830.0];
     let glow = sketch.flame.glow();
-    let shines = |brick: &BrickMean| {
+    let shines = |brick: &PartMean| {
         let mut matter = sketch.plain(brick);
         if brick.hottest_k > 0.0 {
             let gas = glow.coefficients(range_nm, brick.hottest_k, 0.0);
@@ -56,7 +77,7 @@ pub(super) fn lines(sketch: &Sketch<'_>) -> f64 {
 
 /// The fire's light on what stands around.
 pub(super) fn fire_light(sketch: &Sketch<'_>) -> f64 {
-    let matter = |brick: &BrickMean| -> Matter { sketch.with_radicals(brick) };
+    let matter = |brick: &PartMean| -> Matter { sketch.with_radicals(brick) };
     let dark = sketch.picture(matter, false);
     let lit = sketch.picture(matter, true);
     sketch::greatest(&lit, &dark)

@@ -14,9 +14,9 @@ use crate::colour::itp;
 use crate::math::Ray;
 use crate::physics::soot::SootLaw;
 use crate::render::difference::{self, LIT};
-use crate::render::walk::for_each_stored;
+use crate::render::walk::{Stretch, for_each_stored};
 use crate::scene::glow::{Feature, Source};
-use crate::scene::means::{BrickMean, MEANS, MEANS_NM, Means, Spectrum};
+use crate::scene::means::{MEANS, MEANS_NM, Means, PART_EDGE, PARTS, PartMean, Spectrum};
 use crate::scene::medium::BRICK;
 use crate::scene::{Flame, Scene, WavelengthSet};
 
@@ -25,9 +25,8 @@ const RAYS: u32 = 40;
 /// How much brighter than a brick's mean a place of it may be lit: light is uneven within a brick, and a block of bricks is
 /// lit by its own light more than by others'. Of the fires that were tried the worst asks for 2.9.
 const UNEVEN: f64 = 4.0;
-/// How much more than its mean a place of a brick may burn: a sheet one voxel thick that holds all of it, seen at a slant. Of
-/// the fires that were tried the worst asks for 15.
-const SHEET: f64 = 2.0 * BRICK as f64;
+/// How much more than its mean a place of a part may burn: a sheet one voxel thick that holds all of it, seen along it.
+const SHEET: f64 = 6.0 * PART_EDGE as f64;
 
 /// X, Y, Z of a spectrum at the means' wavelengths. How soot's colour differs from fuel to fuel makes no bound.
 static WEIGHTS: LazyLock<[[f64; 3]; MEANS]> = LazyLock::new(|| {
@@ -53,9 +52,9 @@ enum Behind {
     Surface(DVec3, DVec3, f64),
 }
 
-/// The bricks that a ray passes, front to back, with metres in each, and what is behind.
+/// The parts of bricks that a ray passes, front to back, with metres in each, and what is behind.
 struct Pass {
-    bricks: Vec<(u32, f64)>,
+    parts: Vec<(u32, f64)>,
     behind: Behind,
 }
 
@@ -92,7 +91,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// Soot and smoke that glow and absorb.
-    pub(super) fn plain(&self, brick: &BrickMean) -> Matter {
+    pub(super) fn plain(&self, brick: &PartMean) -> Matter {
         Matter {
             source: std::array::from_fn(|i| self.absorption[i] * brick.glow[i]),
             extinction: self.absorption.map(|absorption| absorption * brick.soot),
@@ -101,7 +100,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// What radicals add to a brick.
-    pub(super) fn with_radicals(&self, brick: &BrickMean) -> Matter {
+    pub(super) fn with_radicals(&self, brick: &PartMean) -> Matter {
         let mut matter = self.plain(brick);
         for feature in &self.radicals {
             if let Source::Radical(emission) = feature.source {
@@ -113,7 +112,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// What scattering takes from light.
-    pub(super) fn scattered_away(&self, brick: &BrickMean) -> Matter {
+    pub(super) fn scattered_away(&self, brick: &PartMean) -> Matter {
         let mut matter = self.with_radicals(brick);
         let scattering = self.coefficient(brick);
         matter.extinction = std::array::from_fn(|i| matter.extinction[i] + scattering[i]);
@@ -121,7 +120,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// What it sends towards the eye at most, once.
-    pub(super) fn scattered_here(&self, brick: &BrickMean) -> Matter {
+    pub(super) fn scattered_here(&self, brick: &PartMean) -> Matter {
         let mut matter = self.with_radicals(brick);
         let (scattering, around) = (self.coefficient(brick), self.around(brick));
         matter.source = std::array::from_fn(|i| matter.source[i] + scattering[i] * around[i]);
@@ -129,7 +128,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// The same with all orders: a geometric series of what bricks send each other.
-    pub(super) fn scattered_often(&self, brick: &BrickMean) -> Matter {
+    pub(super) fn scattered_often(&self, brick: &PartMean) -> Matter {
         let mut matter = self.scattered_here(brick);
         let (scattering, around) = (self.coefficient(brick), self.around(brick));
         for i in 0..MEANS {
@@ -148,14 +147,23 @@ impl<'a> Sketch<'a> {
         matter
     }
 
+    /// The same matter where its own soot is as cool as in its cooler places.
+    pub(super) fn cooler(&self, part: &PartMean, matter: Matter) -> Matter {
+        let less = |i: usize| self.absorption[i] * (part.glow[i] - part.dim[i]).max(0.0);
+        Matter {
+            source: std::array::from_fn(|i| matter.source[i] - less(i)),
+            ..matter
+        }
+    }
+
     /// Scattering coefficient of a brick, 1/m.
-    fn coefficient(&self, brick: &BrickMean) -> Spectrum {
+    fn coefficient(&self, brick: &PartMean) -> Spectrum {
         let soot = (brick.soot - brick.smoke).max(0.0);
         std::array::from_fn(|i| self.scattering[0][i] * soot + self.scattering[1][i] * brick.smoke)
     }
 
     /// Mean over all directions of the light that arrives in a brick, from above.
-    fn around(&self, brick: &BrickMean) -> Spectrum {
+    fn around(&self, brick: &PartMean) -> Spectrum {
         let mut around = std::array::from_fn(|i| self.absorption[i] * brick.glow_around[i]);
         for feature in &self.radicals {
             if let Source::Radical(emission) = feature.source {
@@ -172,10 +180,10 @@ impl<'a> Sketch<'a> {
     /// The picture with this matter, X, Y, Z for each ray, and with surfaces lit or dark.
     pub(super) fn picture(
         &self,
-        matter: impl Fn(&BrickMean) -> Matter + Sync,
+        matter: impl Fn(&PartMean) -> Matter + Sync,
         lit: bool,
     ) -> Vec<[f64; 3]> {
-        let of_bricks: Vec<Matter> = self.means.bricks.iter().map(matter).collect();
+        let of_bricks: Vec<Matter> = self.means.parts.iter().map(matter).collect();
         self.passes
             .par_iter()
             .map(|pass| self.seen(pass, &of_bricks, lit))
@@ -184,7 +192,7 @@ impl<'a> Sketch<'a> {
 
     fn seen(&self, pass: &Pass, of_bricks: &[Matter], lit: bool) -> [f64; 3] {
         let (mut light, mut through, mut gas) = ([0.0; MEANS], [1.0; MEANS], [0.0; 3]);
-        for &(slot, metres) in &pass.bricks {
+        for &(slot, metres) in &pass.parts {
             let matter = &of_bricks[slot as usize];
             for c in 0..3 {
                 gas[c] += matter.gas[c] * metres * through[at_colour(c)];
@@ -228,7 +236,7 @@ impl<'a> Sketch<'a> {
             let cosine = (to.dot(normal) / apart)
                 .max(lamp.radius_m / apart)
                 .clamp(0.0, 1.0);
-            let geometry = cosine / (apart * apart);
+            let geometry = NEARER * cosine / (apart * apart);
             for (i, falls) in falls.iter_mut().enumerate() {
                 *falls += geometry * self.absorption[i] * lamp.glow[i];
             }
@@ -251,11 +259,11 @@ impl<'a> Sketch<'a> {
     }
 
     /// The greatest sum along a ray of what a brick has for each metre.
-    pub(super) fn most_along(&self, of: impl Fn(&BrickMean) -> f64) -> f64 {
+    pub(super) fn most_along(&self, of: impl Fn(&PartMean) -> f64) -> f64 {
         let along = |pass: &Pass| -> f64 {
-            let bricks = pass.bricks.iter();
-            bricks
-                .map(|&(slot, metres)| metres * of(&self.means.bricks[slot as usize]))
+            let parts = pass.parts.iter();
+            parts
+                .map(|&(slot, metres)| metres * of(&self.means.parts[slot as usize]))
                 .sum()
         };
         self.passes.iter().map(along).fold(0.0, f64::max)
@@ -267,6 +275,8 @@ impl<'a> Sketch<'a> {
     }
 }
 
+/// By how much more light may fall on a place than from the middles of lamps: part of each is nearer.
+const NEARER: f64 = 2.0;
 /// Most of what is scattered that is scattered again.
 const MOST_AGAIN: f64 = 0.9;
 
@@ -276,6 +286,11 @@ pub(super) fn greatest(one: &[[f64; 3]], other: &[[f64; 3]]) -> f64 {
     let there = difference::difference(one, other).largest;
     let back = difference::difference(other, one).largest;
     there.max(back)
+}
+
+/// The same at the exposure of a third, of which both are darker places.
+pub(super) fn greatest_seen(exposed: &[[f64; 3]], one: &[[f64; 3]], other: &[[f64; 3]]) -> f64 {
+    difference::difference_seen(exposed, one, other).largest
 }
 
 /// Changing a colour of the brightness of a picture's bright parts by this share of it, ΔE_ITP.
@@ -325,12 +340,12 @@ fn passes(scene: &Scene, size: [u32; 2]) -> Vec<Pass> {
         let ray: Ray = view.ray(x, y);
         let hit = scene.stage.hit(&ray, f64::INFINITY);
         let limit = hit.map_or(f64::INFINITY, |hit| hit.distance_m);
-        let mut bricks = Vec::new();
+        let mut parts = Vec::new();
         if let Some((local, [enter, exit])) = medium.enter(&ray)
             && enter < limit
         {
             for_each_stored(medium, &local, [enter, exit.min(limit)], |stretch| {
-                bricks.push((stretch.slot, stretch.to - stretch.from));
+                in_parts(&local, stretch, &mut parts);
             });
         }
         let behind = match (hit, &screen) {
@@ -341,10 +356,34 @@ fn passes(scene: &Scene, size: [u32; 2]) -> Vec<Pass> {
             (None, Some(screen)) => Behind::Screen(screen.xyz(&ray)),
             (None, None) => Behind::Dark,
         };
-        Pass { bricks, behind }
+        Pass { parts, behind }
     };
     (0..counts[0] * counts[1])
         .into_par_iter()
         .map(pass)
         .collect()
+}
+
+/// Cuts a ray's stretch in a brick where it goes from one part of it to another.
+fn in_parts(local: &Ray, stretch: Stretch, parts: &mut Vec<(u32, f64)>) {
+    let Stretch { slot, from, to } = stretch;
+    let middle = local.at(0.5 * (from + to));
+    let brick = (middle / BRICK as f64).floor() * BRICK as f64;
+    let mut cuts = [to; 4];
+    for axis in 0..3 {
+        let t = (brick[axis] + PART_EDGE as f64 - local.origin[axis]) / local.direction[axis];
+        if t > from && t < to {
+            cuts[axis] = t;
+        }
+    }
+    cuts.sort_by(f64::total_cmp);
+    let mut begin = from;
+    for cut in cuts {
+        if cut > begin {
+            let within = local.at(0.5 * (begin + cut)) - brick;
+            let half = within.cmpge(DVec3::splat(PART_EDGE as f64)).bitmask();
+            parts.push((slot * PARTS as u32 + half, cut - begin));
+            begin = cut;
+        }
+    }
 }
