@@ -78,7 +78,8 @@ const FINE: Effort = Effort {
     directions: 32,
 };
 
-/// Most floats of all records: light between the layers takes up to four times as many, J as many, 240 MB together.
+/// Most floats of all records: light between the layers and J take about as many each, 200
+/// MB together.
 const MOST_FLOATS: usize = 3 << 22;
 
 /// Most nodes that are known where a plan has more.

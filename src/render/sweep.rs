@@ -35,9 +35,9 @@ pub(super) struct Sweep<'a> {
     reversed: bool,
     /// Cells along each of the two axes for each layer on the way.
     slope: [f64; 2],
-    /// The first ray along each, in cells at the first layer, and their count.
-    lowest: [i64; 2],
-    rays: [usize; 2],
+    /// The first row of rays along the second of them, in cells at the first layer, and all rows from it on.
+    lowest: i64,
+    rows: Vec<Visit>,
     /// Length of a ray between two layers, m.
     step_m: f32,
 }
@@ -47,6 +47,14 @@ pub(super) struct Sweep<'a> {
 struct Shift {
     base: i64,
     share: f32,
+}
+
+/// The layers in which a row of rays passes the cells, and where its rays there are kept, in rays.
+#[derive(Debug, Clone, Copy, Default)]
+struct Visit {
+    first: usize,
+    layers: usize,
+    kept: usize,
 }
 
 impl<'a> Sweep<'a> {
@@ -63,22 +71,52 @@ impl<'a> Sweep<'a> {
         let axes = [[0, 1, 2], [1, 0, 2], [2, 0, 1]][across];
         let along = [axes[1], axes[2]];
         let slope = along.map(|axis| direction[axis] / speed[across]);
-        let way = slope.map(|slope| -slope * (cells.size[across].max(1) - 1) as f64);
-        let lowest = way.map(|way| way.min(0.0).floor() as i64);
-        let rays = [0, 1].map(|i| {
-            let highest = cells.size[along[i]] as i64 + way[i].max(0.0).floor() as i64;
-            (highest - lowest[i] + 1) as usize
-        });
-        Self {
+        let mut sweep = Self {
             cells,
             extinction,
             axes,
             reversed: direction[across] < 0.0,
             slope,
-            lowest,
-            rays,
+            lowest: 0,
+            rows: Vec::new(),
             step_m: (1.0 / speed[across]) as f32,
+        };
+        sweep.lay_rows();
+        sweep
+    }
+
+    /// Finds which rows pass the cells in which layers. No more is kept than those: of a slender fire nearly all rays miss
+    /// nearly all layers.
+    fn lay_rows(&mut self) {
+        let (layers, height) = (self.layers(), self.cells.size[self.axes[2]]);
+        let Some(last) = layers.checked_sub(1) else {
+            return;
+        };
+        let ends = [self.shift(0, 1).base, self.shift(last, 1).base];
+        self.lowest = ends[0].min(ends[1]);
+        let count = ends[0].abs_diff(ends[1]) as usize + height + 1;
+        self.rows = vec![Visit::default(); count];
+        for layer in 0..layers {
+            let first = (self.shift(layer, 1).base - self.lowest) as usize;
+            for row in &mut self.rows[first..=first + height] {
+                if row.layers == 0 {
+                    row.first = layer;
+                }
+                row.layers += 1;
+            }
         }
+        let width = self.width();
+        let mut kept = 0;
+        for row in &mut self.rows {
+            row.kept = kept;
+            kept += row.layers * width;
+        }
+    }
+
+    /// Rays of a row in a layer: one on either side of each cell.
+    #[inline(always)]
+    fn width(&self) -> usize {
+        self.cells.size[self.axes[1]] + 1
     }
 
     fn layers(&self) -> usize {
@@ -96,21 +134,26 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Follows all rays. `light` becomes their radiance at each layer: row after row of rays, in each layer after layer.
+    /// Follows all rays. `light` becomes their radiance beside the cells: row after row, in each layer after layer that the
+    /// row passes.
     pub(super) fn follow(&self, light: &mut Vec<Chunk>) {
-        let row = self.layers() * self.rays[0] * self.cells.chunks;
-        // What stays of another direction is never read: a ray writes every layer between the cells.
-        light.resize((row * self.rays[1]).max(light.len()), [0.0; WIDE]);
-        light[..row * self.rays[1]]
-            .par_chunks_exact_mut(row.max(1))
-            .enumerate()
-            .for_each(|(number, light)| {
-                lanes::dispatch(Row {
-                    sweep: self,
-                    number: number as i64 + self.lowest[1],
-                    light,
-                });
+        let per_layer = self.width() * self.cells.chunks;
+        let all: usize = self.rows.iter().map(|row| row.layers * per_layer).sum();
+        // What stays of another direction is never read: a ray writes every layer beside the cells.
+        light.resize(all.max(light.len()), [0.0; WIDE]);
+        let mut rest = &mut light[..all];
+        let mut rows = Vec::with_capacity(self.rows.len());
+        for (number, row) in (self.lowest..).zip(&self.rows) {
+            let (own, others) = rest.split_at_mut(row.layers * per_layer);
+            rest = others;
+            rows.push(Row {
+                sweep: self,
+                number,
+                visit: *row,
+                light: own,
             });
+        }
+        rows.into_par_iter().for_each(lanes::dispatch);
     }
 
     /// Which rays pass a cell's middle: where the first of the four is kept in `light`, in chunks, how far off its
@@ -124,14 +167,16 @@ impl<'a> Sweep<'a> {
             cell[across]
         };
         let (sideways, upwards) = (self.shift(layer, 0), self.shift(layer, 1));
-        let i = (cell[b] as i64 + sideways.base - self.lowest[0]) as usize;
-        let j = (cell[c] as i64 + upwards.base - self.lowest[1]) as usize;
+        let row = (cell[c] as i64 + upwards.base - self.lowest) as usize;
         let chunks = self.cells.chunks;
-        let row = self.layers() * self.rays[0] * chunks;
-        let first = j * row + (layer * self.rays[0] + i) * chunks;
+        let kept = |row: &Visit| {
+            let ray = row.kept + (layer - row.first) * self.width() + cell[b];
+            ray * chunks
+        };
+        let [near, far] = [kept(&self.rows[row]), kept(&self.rows[row + 1])];
         let [x, y] = [sideways.share, upwards.share];
         (
-            [first, first + chunks, first + row, first + row + chunks],
+            [near, near + chunks, far, far + chunks],
             [(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y],
         )
     }
@@ -141,6 +186,7 @@ impl<'a> Sweep<'a> {
 struct Row<'a, 'b> {
     sweep: &'a Sweep<'a>,
     number: i64,
+    visit: Visit,
     light: &'b mut [Chunk],
 }
 
@@ -153,16 +199,21 @@ impl Kernel for Row<'_, '_> {
         let (cells, chunks) = (sweep.cells, sweep.cells.chunks);
         let strides = cells.strides();
         let [across, b, c] = sweep.axes;
-        let [width, height] = [b, c].map(|axis| cells.size[axis] as i64);
-        // What each ray carries, what it met last, and whether that was anything.
-        let mut carried = vec![[0.0; WIDE]; sweep.rays[0] * chunks];
+        let width = sweep.width();
+        // What each ray beside a cell carries, what it met last, and whether that was anything.
+        let mut carried = vec![[0.0; WIDE]; width * chunks];
         let mut met = carried.clone();
-        let mut was_filled = vec![false; sweep.rays[0]];
-        for layer in 0..sweep.layers() {
+        let mut was_filled = vec![false; width];
+        let Visit { first, layers, .. } = self.visit;
+        let mut base = sweep.shift(first, 0).base;
+        for layer in first..first + layers {
             let (sideways, upwards) = (sweep.shift(layer, 0), sweep.shift(layer, 1));
-            if self.number < upwards.base || self.number > upwards.base + height {
-                continue;
-            }
+            // The same rays lie beside other cells now; others come in, with nothing.
+            let moved = sideways.base - base;
+            base = sideways.base;
+            shifted(&mut carried, moved * chunks as i64, [0.0; WIDE]);
+            shifted(&mut met, moved * chunks as i64, [0.0; WIDE]);
+            shifted(&mut was_filled, moved, false);
             let depth = if sweep.reversed {
                 sweep.layers() - 1 - layer
             } else {
@@ -173,15 +224,14 @@ impl Kernel for Row<'_, '_> {
                 (depth + 1) * strides[across] + (self.number - upwards.base) as usize * strides[c];
             let [x, y] = [sideways.share, upwards.share];
             let weights = [x * y, (1.0 - x) * y, x * (1.0 - y), (1.0 - x) * (1.0 - y)];
-            for i in 0..=width {
-                let low = row + i as usize * strides[b];
+            for ray in 0..width {
+                let low = row + ray * strides[b];
                 let four = [
                     low,
                     low + strides[b],
                     low + strides[c],
                     low + strides[b] + strides[c],
                 ];
-                let ray = (i + sideways.base - sweep.lowest[0]) as usize;
                 let own = ray * chunks..(ray + 1) * chunks;
                 let filled = four.iter().any(|&cell| cells.filled[cell]);
                 if filled || was_filled[ray] {
@@ -194,10 +244,23 @@ impl Kernel for Row<'_, '_> {
                     );
                 }
                 was_filled[ray] = filled;
-                let kept = (layer * sweep.rays[0] + ray) * chunks;
+                let kept = ((layer - first) * width + ray) * chunks;
                 self.light[kept..kept + chunks].copy_from_slice(&carried[own]);
             }
         }
+    }
+}
+
+/// Moves what stands at `by` to the front, or the front to `-by`; what comes in is new.
+fn shifted<T: Copy>(values: &mut [T], by: i64, new: T) {
+    let moved = (by.unsigned_abs() as usize).min(values.len());
+    let stays = values.len() - moved;
+    if by > 0 {
+        values.copy_within(moved.., 0);
+        values[stays..].fill(new);
+    } else {
+        values.copy_within(..stays, moved);
+        values[..moved].fill(new);
     }
 }
 
