@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 
 use glam::{DAffine3, DVec3, IVec3};
 use sootlight::project::{Job, Project};
-use sootlight::render::{Settings, Switch};
+use sootlight::render::{Effects, Settings, Switch};
 use sootlight::scene::{Camera, Scene};
 use sootlight::volume::{self, Border, Grid, Limits, Producer, Volume};
 
@@ -42,6 +42,18 @@ pub(crate) fn physical() -> Project {
     // What is compared with laws along a line is seen along a line.
     project.effects.refraction = Switch::Off;
     project
+}
+
+/// Effects for what is compared with laws along a line, or with paths: seen along a line, with light that was scattered
+/// once or not at all, at the very wavelengths that were asked for.
+pub(crate) fn scattered_alone(scattering: Switch) -> Effects {
+    Effects {
+        scattering,
+        scattering_orders: Switch::Off,
+        refraction: Switch::Off,
+        wavelengths: Switch::Off,
+        ..Effects::AUTO
+    }
 }
 
 /// The scene of a physical volume seen by a camera.

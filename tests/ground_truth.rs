@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3, IVec3};
 use sootlight::math::Ray;
 use sootlight::physics::blackbody;
 use sootlight::render::march::Marcher;
-use sootlight::render::{Cancel, Effects, Plan, Settings, Switch, render_still};
+use sootlight::render::{Cancel, Plan, Settings, Switch, render_still};
 use sootlight::scene::{Camera, Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
 use sootlight::volume::{Border, Grid, Volume};
@@ -66,13 +66,7 @@ fn settings(size: u32, step_voxels: f64, set: WavelengthSet) -> Settings {
         wavelengths: set,
         samples_per_pixel: 1,
         scattering_orders: 1,
-        // What is compared with laws along a line is seen along a line, and nothing is added to it.
-        effects: Effects {
-            scattering: Switch::Off,
-            refraction: Switch::Off,
-            wavelengths: Switch::Off,
-            ..Effects::AUTO
-        },
+        effects: common::scattered_alone(Switch::Off),
     }
 }
 

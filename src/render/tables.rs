@@ -60,9 +60,10 @@ pub const MAX_NODES: usize = 64;
 
 /// Most wavelengths at which light from all sides is worked out by itself.
 const FIELD_NODES: usize = 8;
-/// Temperature of what gives most light, over the hottest soot's; and the coolest peak that is looked at, K.
+/// Temperature of what gives most light, over the hottest soot's.
 const LUMINOUS: f64 = 0.9;
-const COOLEST_K: f64 = 800.0;
+/// Coolest peak of a fire that is looked at, K: what is cooler is not seen.
+pub(super) const COOLEST_K: f64 = 800.0;
 /// The fitted set at which it is where there are more.
 const FIELD_SET: u32 = 8;
 

@@ -15,8 +15,7 @@ use glam::{DAffine3, DVec3, IVec3, UVec3};
 
 use super::interpolation::Interpolation;
 use super::means::Means;
-use crate::math::{Aabb, Ray, lanes};
-use crate::physics::blackbody::SECOND_RADIATION_CONSTANT_NM_K;
+use crate::math::{Aabb, Ray};
 
 /// Voxels along a brick's edge.
 pub const BRICK: usize = 8;
@@ -70,22 +69,6 @@ pub(crate) struct Peaks {
     pub(crate) temperature_k: f32,
     /// Flame field.
     pub(crate) flame: f32,
-    /// The sample whose soot glows most, and how much it does, in the measure of [`soot_glow`].
-    pub(crate) brightest: Sample,
-    pub(crate) glow: f32,
-    /// Flame field over the soot's glow at the same place, where a thirtieth of the brightest soot's stands in for less.
-    pub(crate) flame_beside_glow: f32,
-}
-
-/// Wavelength at which the glow of soot is compared, nm: where the eye is most sensitive.
-pub(crate) const COMPARED_NM: f64 = 555.0;
-/// Share of the brightest glow below which places count as alike.
-const DIM: f32 = 0.03;
-
-/// How much soot glows, for comparison: f_v e^{−c₂/λT} at [`COMPARED_NM`].
-pub(crate) fn soot_glow([soot, kelvin]: Sample) -> f32 {
-    const EXPONENT_K: f32 = (SECOND_RADIATION_CONSTANT_NM_K / COMPARED_NM) as f32;
-    soot * lanes::exp(-EXPONENT_K / kelvin)
 }
 
 impl Peaks {
@@ -94,13 +77,6 @@ impl Peaks {
         self.volume_fraction = self.volume_fraction.max(sample[0]);
         self.temperature_k = self.temperature_k.max(sample[1]);
         self.flame = self.flame.max(flame);
-        // Less soot that is cooler, too, glows less: Planck's law is rarely asked.
-        if sample[0] > self.brightest[0] || sample[1] > self.brightest[1] {
-            let glow = soot_glow(sample);
-            if glow > self.glow {
-                (self.brightest, self.glow) = (sample, glow);
-            }
-        }
     }
 
     /// Notes the peaks of another part.
@@ -108,19 +84,6 @@ impl Peaks {
         self.volume_fraction = self.volume_fraction.max(other.volume_fraction);
         self.temperature_k = self.temperature_k.max(other.temperature_k);
         self.flame = self.flame.max(other.flame);
-        self.flame_beside_glow = self.flame_beside_glow.max(other.flame_beside_glow);
-        if other.glow > self.glow {
-            (self.brightest, self.glow) = (other.brightest, other.glow);
-        }
-    }
-
-    /// How much of a flame field stands beside how much glow, once the brightest glow is known.
-    pub(super) fn beside(&self, sample: Sample, flame: f32) -> f32 {
-        if flame > 0.0 {
-            flame / (soot_glow(sample) + DIM * self.glow)
-        } else {
-            0.0
-        }
     }
 }
 

@@ -219,13 +219,6 @@ impl Medium {
             .iter()
             .flatten()
             .for_each(|part| self.peaks.merge(part));
-        if !self.flame.is_empty() {
-            let (flame, samples) = (self.flame.par_iter(), self.samples.par_iter());
-            self.peaks.flame_beside_glow = flame
-                .zip(samples)
-                .map(|(flame, sample)| self.peaks.beside(*sample, *flame))
-                .reduce(|| 0.0, f32::max);
-        }
         let mut shows: Vec<bool> = parts.iter().map(Option::is_some).collect();
         if self.interpolation == Interpolation::Tricubic {
             shows = self.beside(packed, &shows);

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use glam::{DAffine3, DVec3, IVec3};
 use sootlight::render::null_collision::{Estimate, NullCollision, Params, Scattering};
-use sootlight::render::{Cancel, Effects, Film, Pass, Plan, Settings, Switch, render_pass};
+use sootlight::render::{Cancel, Film, Pass, Plan, Settings, Switch, render_pass};
 use sootlight::scene::{Scene, WavelengthSet};
 use sootlight::volume::{Border, Grid, Volume};
 
@@ -72,13 +72,7 @@ fn settings(scattering_orders: u32) -> Settings {
         wavelengths: WAVELENGTHS,
         samples_per_pixel: 1,
         scattering_orders,
-        effects: Effects {
-            scattering: Switch::On,
-            scattering_orders: Switch::Off,
-            refraction: Switch::Off,
-            wavelengths: Switch::Off,
-            ..Effects::AUTO
-        },
+        effects: common::scattered_alone(Switch::On),
     }
 }
 

@@ -10,7 +10,7 @@ use glam::{DAffine3, DVec3, IVec3};
 use sootlight::project::{Preset, Project};
 use sootlight::render::march::Marcher;
 use sootlight::render::null_collision::{Estimate, NullCollision, Params, Scattering};
-use sootlight::render::{Cancel, Effects, Plan, Settings, Switch, render_still};
+use sootlight::render::{Cancel, Plan, Settings, Switch, render_still};
 use sootlight::scene::{Scene, WavelengthSet};
 use sootlight::volume::{self, Border, BuiltIn, Grid, Limits, Volume};
 
@@ -53,13 +53,7 @@ fn marched(scene: &Scene, scattering: Switch) -> Vec<[f64; 3]> {
         wavelengths: WavelengthSet::Fitted(6),
         samples_per_pixel: 1,
         scattering_orders: 1,
-        effects: Effects {
-            scattering,
-            scattering_orders: Switch::Off,
-            refraction: Switch::Off,
-            wavelengths: Switch::Off,
-            ..Effects::AUTO
-        },
+        effects: common::scattered_alone(scattering),
     };
     let plan = Plan::new(scene, &settings);
     let marcher = Marcher::new(scene, &plan, settings.step_voxels).unwrap();
@@ -274,13 +268,7 @@ fn mean_of_still(scene: &Scene, scattering_orders: u32, threads: usize) -> ([f64
         wavelengths: WavelengthSet::Fitted(6),
         samples_per_pixel: 4,
         scattering_orders,
-        effects: Effects {
-            scattering: Switch::On,
-            scattering_orders: Switch::Off,
-            refraction: Switch::Off,
-            wavelengths: Switch::Off,
-            ..Effects::AUTO
-        },
+        effects: common::scattered_alone(Switch::On),
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     let frame = pool.build().unwrap().install(|| {

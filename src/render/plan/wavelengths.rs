@@ -12,6 +12,7 @@ use crate::colour::{cie, itp};
 use crate::physics::blackbody;
 use crate::physics::soot::SootLaw;
 use crate::render::difference::WHITE_CD_M2;
+use crate::render::tables::COOLEST_K;
 use crate::scene::{Scene, WavelengthSet};
 use crate::spectral::Wavelengths;
 
@@ -26,8 +27,6 @@ const TEMPERATURES: [f64; 3] = [1.0, 0.85, 0.7];
 /// Optical depths at 555 nm.
 const DEPTHS: [f64; 3] = [0.0, 1.0, 4.0];
 const DEPTH_NM: f64 = 555.0;
-/// Coldest peak of a fire that is looked at, K: what is colder is not seen.
-const COOLEST_K: f64 = 800.0;
 /// Share of light that may be scattered without a set being fitted to it.
 const LITTLE: f64 = 0.03;
 /// By how much more than those that are tried the spectra between them may be off.

@@ -25,6 +25,8 @@ const MOST_ORDERS: u32 = 12;
 const NEGLIGIBLE: f64 = 2e-3;
 /// Orders that must have been worked out before the rest is taken from their ratio.
 const STEADY: u32 = 4;
+/// Share by which what the ratio says may be off: from the fourth order on it changes by less.
+const UNSURE: f64 = 0.1;
 /// Greatest ratio that is trusted: of a thousand scatterings one is lost.
 const MOST_RATIO: f64 = 0.999;
 
@@ -71,7 +73,7 @@ pub(super) fn scattered_often(
         rest = if ends {
             NEGLIGIBLE
         } else {
-            0.1 * next_sum * missing / sum
+            UNSURE * next_sum * missing / sum
         };
         if is_last {
             break;
