@@ -52,7 +52,7 @@ fn window(folder: &Path, name: &str, files: &[&str]) {
 fn window_after(folder: &Path, name: &str, files: &[&str], hands: &str) {
     // The script succeeds if the picture was taken and the program was there to be seen.
     let script = format!(
-        r#""$0" "${{@:2}}" & program=$!; sleep 6; {hands}; import -window root "$1"; taken=$?
+        r#""$0" "${{@:2}}" & program=$!; sleep 25; {hands}; import -window root "$1"; taken=$?
         kill $program || exit 1; wait; exit $taken"#
     );
     let output = cleared(name);
@@ -83,6 +83,9 @@ fn of_the_built_in_flame() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     still(here, "torch.png", &["--size", "900x1100"]);
     window(here, "window.png", &[]);
+    // Down to the list of effects.
+    let hands = "xdotool mousemove 1100 500; for i in $(seq 16); do xdotool click 5; sleep 0.05; done; sleep 2";
+    window_after(here, "window_effects.png", &[], hands);
     let set = ["--set", "view.false_colour=true"];
     window(here, "window_false_colour.png", &set);
 }
@@ -117,7 +120,7 @@ fn of_the_stage() {
     let scene = ["--scene", "assets/scenes/crossed_logs.toml"];
     let names = ["fire_light_off.png", "crossed_logs.png"];
     stills_of(here, names, "effects.fire_light", &scene);
-    // Down to the controls of stage and effects.
+    // Down to the controls of the stage.
     let hands = "xdotool mousemove 1100 500; for i in $(seq 13); do xdotool click 5; sleep 0.05; done; sleep 8";
     window_after(here, "window_stage.png", &scene, hands);
 }

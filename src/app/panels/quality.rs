@@ -118,8 +118,8 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
 /// How often light may be scattered.
 fn orders(ui: &mut Ui, orders: &mut u32) {
     let words = |orders: u32| match orders {
-        1 => "Once, without noise".to_owned(),
-        orders => format!("Up to {orders} times"),
+        1 => "By fields, without noise".to_owned(),
+        orders => format!("By paths, up to {orders} times"),
     };
     let mut options: Vec<(u32, String, &str)> =
         ORDERS.map(|orders| (orders, words(orders), "")).to_vec();
@@ -129,9 +129,9 @@ fn orders(ui: &mut Ui, orders: &mut u32) {
     Choice {
         label: "Scatterings",
         options: &options,
-        tip: "How often light is followed from soot to soot where scattering is computed (Effects says whether, and how much \
-              more than one adds). Beyond the first they are added by path tracing, with some noise: more rays a pixel \
-              take it away.",
+        tip: "How light is followed from soot to soot where scattering is computed (Effects says whether, and whether more \
+              than once). Fields have no noise, but get light too far in smoke that is thick within a voxel. Paths follow \
+              all but the first scattering exactly, with some noise: more rays a pixel take it away.",
         default: 1,
         idle: None,
     }
