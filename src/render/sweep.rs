@@ -224,7 +224,7 @@ impl Kernel for Row<'_, '_> {
                 (depth + 1) * strides[across] + (self.number - upwards.base) as usize * strides[c];
             let [x, y] = [sideways.share, upwards.share];
             let weights = [x * y, (1.0 - x) * y, x * (1.0 - y), (1.0 - x) * (1.0 - y)];
-            for ray in 0..width {
+            for (ray, was_filled) in was_filled.iter_mut().enumerate() {
                 let low = row + ray * strides[b];
                 let four = [
                     low,
@@ -234,7 +234,7 @@ impl Kernel for Row<'_, '_> {
                 ];
                 let own = ray * chunks..(ray + 1) * chunks;
                 let filled = four.iter().any(|&cell| cells.filled[cell]);
-                if filled || was_filled[ray] {
+                if filled || *was_filled {
                     step(
                         sweep,
                         four.map(|cell| cell * chunks),
@@ -243,7 +243,7 @@ impl Kernel for Row<'_, '_> {
                         &mut carried[own.clone()],
                     );
                 }
-                was_filled[ray] = filled;
+                *was_filled = filled;
                 let kept = ((layer - first) * width + ray) * chunks;
                 self.light[kept..kept + chunks].copy_from_slice(&carried[own]);
             }
