@@ -25,9 +25,10 @@ mod scenes;
 use scenes::{Scene, eight, everything};
 
 /// Effects that a person or the plan can switch.
-const OPTIONAL: [Effect; 9] = [
+const OPTIONAL: [Effect; 10] = [
     Effect::Smoke,
     Effect::Lines,
+    Effect::Bands,
     Effect::Chemiluminescence,
     Effect::Scattering,
     Effect::ScatteringOrders,

@@ -198,6 +198,7 @@ fn statistics_have_the_keys_that_scripts_read() {
             ("emission-absorption", "on"),
             ("smoke", "off"),
             ("lines", "off"),
+            ("bands", "off"),
             ("chemiluminescence", "off"),
             ("scattering", "on"),
             ("scattering_orders", "on"),

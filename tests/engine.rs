@@ -77,7 +77,12 @@ fn costs_come_after_the_picture_and_whoever_looks_closer_sees_what_was_decided()
         cost(Effect::Scattering).is_some_and(|it| it.seconds > 0.0),
         "{costs:?}"
     );
-    for nothing in [Effect::Soot, Effect::Lines, Effect::FireLight] {
+    for nothing in [
+        Effect::Soot,
+        Effect::Lines,
+        Effect::Bands,
+        Effect::FireLight,
+    ] {
         assert!(cost(nothing).is_none(), "{costs:?}");
     }
     let packed = engine.scene().unwrap();

@@ -82,6 +82,7 @@ impl Still {
         let told = &mut self.project.effects;
         for (told, alone, seen) in [
             (&mut told.lines, alone.lines, seen.lines),
+            (&mut told.bands, alone.bands, seen.bands),
             (
                 &mut told.chemiluminescence,
                 alone.chemiluminescence,

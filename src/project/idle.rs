@@ -139,7 +139,13 @@ fn words(job: &Job, flame: &FlameParams, control: Control, decisions: &[Decision
         Control::SootAmount if sootless => "this fuel burns without soot",
         Control::SootAmount => "this volume has no soot field",
         Control::SmokeAmount => "this volume has no smoke field: choose a grid for it under Volume",
+        Control::SaltAmount if effects.lines == Switch::Off || effects.bands == Switch::Off => {
+            "there is no salt, or what glows of it is switched off under Effects"
+        }
         Control::SaltAmount => "there is no salt",
+        Control::BlueGlow if effects.chemiluminescence == Switch::Off => {
+            "radicals are switched off under Effects"
+        }
         Control::BlueGlow if flame.fuel.row().radicals == [0.0; 3] => {
             "this fuel has no radicals that glow"
         }

@@ -198,10 +198,12 @@ impl Project {
                 "no flame field: the blue glow is put where the gas is hotter than 1600 K, as if it burnt there",
             );
         }
-        let salt_ppm = match self.effects.lines {
-            Switch::Off => 0.0,
-            Switch::Auto | Switch::On if self.fuel.salt.is_none() => 0.0,
-            Switch::Auto | Switch::On => self.fuel.salt_ppm,
+        let [lines, bands] =
+            [self.effects.lines, self.effects.bands].map(|switch| switch != Switch::Off);
+        let salt_ppm = if self.fuel.salt.is_none() || !(lines || bands) {
+            0.0
+        } else {
+            self.fuel.salt_ppm
         };
         let clear_k = maps.temperature.as_ref().and_then(|map| {
             let grid = volume.grid(&map.grid)?;
@@ -214,6 +216,8 @@ impl Project {
                 Salt::default()
             },
             salt_ppm,
+            lines,
+            bands,
             radicals,
             by_heat,
             clear_k: clear_k.unwrap_or(0.0),

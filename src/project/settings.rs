@@ -154,8 +154,10 @@ impl Default for FuelSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct EffectSettings {
-    /// Lines and bands of a salt's metal.
+    /// Lines of a salt's atoms.
     pub lines: Switch,
+    /// Bands of a salt's molecules.
+    pub bands: Switch,
     /// Light of radicals in the reaction zone.
     pub chemiluminescence: Switch,
     /// The fire's own light, scattered once by soot and smoke.
@@ -176,6 +178,7 @@ impl From<EffectSettings> for Effects {
     fn from(set: EffectSettings) -> Self {
         Self {
             lines: set.lines,
+            bands: set.bands,
             chemiluminescence: set.chemiluminescence,
             scattering: set.scattering,
             refraction: set.refraction,

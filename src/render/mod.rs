@@ -76,8 +76,10 @@ pub struct Settings {
 /// Which effects are computed; what is not in the scene costs nothing either way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Effects {
-    /// Lines and bands of a salt's metal. Auto: where there is a salt.
+    /// Lines of a salt's atoms. Auto: where they can be seen.
     pub lines: Switch,
+    /// Bands of a salt's molecules. Auto: where they can be seen.
+    pub bands: Switch,
     /// Light of radicals in the reaction zone. Auto: unless soot outshines it.
     pub chemiluminescence: Switch,
     /// The fire's own light, scattered once by soot and smoke. Auto: where it can be seen.
@@ -100,6 +102,7 @@ impl Effects {
     /// Each where it can be seen.
     pub const AUTO: Self = Self {
         lines: Switch::Auto,
+        bands: Switch::Auto,
         chemiluminescence: Switch::Auto,
         scattering: Switch::Auto,
         refraction: Switch::Auto,

@@ -95,15 +95,7 @@ impl Plan {
         mut features: Vec<Feature>,
         decisions: Vec<Decision>,
     ) -> Self {
-        let with_lines = is_on(&decisions, Effect::Lines);
-        let with_radicals = is_on(&decisions, Effect::Chemiluminescence);
-        features.retain(|feature| {
-            if feature.is_radical() {
-                with_radicals
-            } else {
-                with_lines
-            }
-        });
+        features.retain(|feature| is_on(&decisions, Effect::of_glow(feature.kind())));
         let mut plan = Self::of(scene, settings.size, wavelengths, features, decisions);
         let again = is_on(&plan.decisions, Effect::ScatteringOrders);
         if plan.wanted.scatter && again {

@@ -42,7 +42,7 @@ use super::Cancel;
 use super::cells::{Cells, Chunk, Colours, WIDE};
 use super::level::Level;
 use super::own_light::reach_m;
-use super::spread::Spread;
+use super::spread::{MOST_FEW, Spread};
 use super::sweep::Sweep;
 use super::tables::Tables;
 use crate::math::lanes::Lanes;
@@ -54,7 +54,8 @@ mod sharpen;
 
 use gathered::Gathered;
 
-/// How finely J is worked out.
+/// How finely J is worked out: as finely whatever the number of wavelengths, or these alone would make a difference. With the
+/// most that fields are worked out at a cell has 24 numbers, and J and light between the layers take 70 MB each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Effort {
     /// Most cells.
@@ -77,13 +78,6 @@ const FINE: Effort = Effort {
     cells: 700_000,
     directions: 32,
 };
-
-/// Most floats of all records: light between the layers and J take about as many each, 200
-/// MB together.
-const MOST_FLOATS: usize = 3 << 22;
-
-/// Most nodes that are known where a plan has more.
-const MAX_KNOWN: usize = 8;
 
 /// Wavelengths at whose scattering the directions are counted, nm: the ends of what is seen.
 const LOBES_NM: [f64; 2] = [400.0, 700.0];
@@ -155,8 +149,7 @@ impl InScatter {
         let few = reduced.as_ref().map_or(tables, |(few, _)| few);
         // The medium in cells, and the directions from which their light is taken.
         let colours = Colours::new(&scene.flame, few);
-        let most = effort.cells.min(MOST_FLOATS / (WIDE * colours.chunks()));
-        let cells = Cells::new(scene, &colours, most);
+        let cells = Cells::new(scene, &colours, effort.cells);
         let asymmetry = colours.asymmetry();
         // As many whatever the wavelengths, so that these alone make no difference.
         let strongest = LOBES_NM.map(|nm| scene.flame.asymmetry(nm).abs());
@@ -229,7 +222,7 @@ impl InScatter {
         }
         let [nodes, silent, radicals] = self.counts;
         let all = self.spread.as_ref().map_or(nodes, Spread::len);
-        let mut known = [0.0; MAX_KNOWN];
+        let mut known = [0.0; MOST_FEW];
         for chunk in 0..self.chunks {
             let tap = |corner: usize| {
                 let step = |axis: usize| (corner >> axis & 1) * next[axis];

@@ -59,13 +59,13 @@ pub struct Tables {
 pub const MAX_NODES: usize = 64;
 
 /// Most wavelengths at which light from all sides is worked out by itself.
-const FIELD_NODES: usize = 8;
+const FIELD_NODES: usize = 16;
 /// Temperature of what gives most light, over the hottest soot's.
 const LUMINOUS: f64 = 0.9;
 /// Coolest peak of a fire that is looked at, K: what is cooler is not seen.
 pub(super) const COOLEST_K: f64 = 800.0;
-/// The fitted set at which it is where there are more.
-const FIELD_SET: u32 = 8;
+/// The plain set at which it is where there are more.
+const FIELD_SET: u32 = 16;
 
 /// Optical depth at which a ray stops: what is behind keeps e⁻²⁴ = 4e-11 of its radiance, less than an f32's last digit
 /// unless it is a thousand times as bright as what is in front.
@@ -135,7 +135,7 @@ impl Tables {
             return None;
         }
         let kelvin = LUMINOUS * f64::from(scene.flame.medium().peak_temperature_k()).max(COOLEST_K);
-        let few = WavelengthSet::Fitted(FIELD_SET).wavelengths(scene.flame.soot());
+        let few = WavelengthSet::Plain(FIELD_SET).wavelengths(scene.flame.soot());
         let spread = Spread::new(&few.nodes_nm, &self.wavelengths.nodes_nm, kelvin)?;
         let features = self.features.clone();
         let few = Self::new(scene, self.size, few, features, self.scatters);

@@ -34,7 +34,7 @@ mod emitter;
 mod feature;
 
 pub use emitter::{HEAT_RELEASE, LIGHT_OF_HEAT};
-pub use feature::{Feature, Growth, Source, Spread};
+pub use feature::{Feature, Growth, Kind, Source, Spread};
 
 use emitter::Emitter;
 
@@ -42,12 +42,16 @@ use emitter::Emitter;
 pub const VAPOUR_K: [f64; 2] = [900.0, 1200.0];
 
 /// What is asked for beside soot.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GlowParams {
     /// The salt.
     pub salt: Salt,
     /// Mole fraction of its metal in the undiluted gas, parts in a million; 0 for none.
     pub salt_ppm: f64,
+    /// Whether its atoms' lines are wanted.
+    pub lines: bool,
+    /// Whether its molecules' bands are wanted.
+    pub bands: bool,
     /// Multiplies the light of the radicals; 0 for none.
     pub radicals: f64,
     /// Whether gas counts as burning by its heat where there is no flame field.
@@ -55,6 +59,21 @@ pub struct GlowParams {
     /// Temperature of gas of which the volume says nothing, K: gas as cool as that holds no salt, even where the file's
     /// mapping makes it hotter than the air.
     pub clear_k: f64,
+}
+
+impl Default for GlowParams {
+    /// Nothing; of a salt that is put in, all that it has.
+    fn default() -> Self {
+        Self {
+            salt: Salt::default(),
+            salt_ppm: 0.0,
+            lines: true,
+            bands: true,
+            radicals: 0.0,
+            by_heat: false,
+            clear_k: 0.0,
+        }
+    }
 }
 
 /// What glows in one flame's gas.
@@ -80,6 +99,11 @@ impl Glow {
         let mut emitters = Vec::new();
         if params.salt_ppm > 0.0 {
             emitter::metal(&mut emitters, params.salt, 1e-6 * params.salt_ppm);
+            emitters.retain(|emitter| match emitter.kind() {
+                Kind::Line => params.lines,
+                Kind::Band => params.bands,
+                Kind::Radical => true,
+            });
         }
         if params.radicals > 0.0 {
             emitter::radicals(&mut emitters, fuel, params.radicals);
@@ -104,14 +128,29 @@ impl Glow {
         self.emitters.is_empty()
     }
 
+    /// Whether anything of a kind glows.
+    pub fn has(&self, kind: Kind) -> bool {
+        self.emitters.iter().any(|emitter| emitter.kind() == kind)
+    }
+
     /// Whether hot gas glows by itself.
     pub fn has_metal(&self) -> bool {
-        self.emitters.iter().any(Emitter::is_thermal)
+        self.has(Kind::Line) || self.has(Kind::Band)
     }
 
     /// Whether burning gas glows.
     pub fn has_radicals(&self) -> bool {
-        !self.emitters.iter().all(Emitter::is_thermal)
+        self.has(Kind::Radical)
+    }
+
+    /// What of it is of one kind, in the same gas.
+    #[must_use]
+    pub fn only(&self, kind: Kind) -> Self {
+        let emitters = self.emitters.iter().copied();
+        Self {
+            emitters: emitters.filter(|emitter| emitter.kind() == kind).collect(),
+            dilution_k: self.dilution_k,
+        }
     }
 
     /// Of the air, and of gas that holds all of its salt, K.

@@ -44,6 +44,7 @@ const EFFECTS: &[(&str, &[&str], &str)] = &[
         "effects.chemiluminescence",
     ),
     ("lines", &["fuel.salt=sodium"], "effects.lines"),
+    ("bands", &["fuel.salt=copper"], "effects.bands"),
 ];
 
 fn main() {
@@ -125,6 +126,7 @@ fn measure(volume: &Arc<Volume>, effect: &str, calls: &[&str], switch: &str) {
         "effects.fire_light=off",
         "effects.chemiluminescence=off",
         "effects.lines=off",
+        "effects.bands=off",
     ];
     let job = |state: Option<&str>| {
         let mut project = Project::default();

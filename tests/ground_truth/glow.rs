@@ -224,7 +224,7 @@ fn every_set_of_wavelengths_holds_the_same_area_as_bins_of_five_nanometres() {
             "effects.chemiluminescence=on",
         ];
         let scene_with = scene(|_| 1e-8, |_| 2100.0, 5, &asked);
-        let scene_without = scene(|_| 1e-8, |_| 2100.0, 5, &["effects.lines=off"]);
+        let scene_without = scene(|_| 1e-8, |_| 2100.0, 5, &[]);
         let mut binned = [0.0; 3];
         for bin in 0..94 {
             let from = 360.0 + 5.0 * f64::from(bin);

@@ -160,6 +160,7 @@ fn effects_are_switched_and_what_needs_them_says_so() {
         ("Dispersion", |e| e.dispersion),
         ("Fire light", |e| e.fire_light),
         ("Salt lines", |e| e.lines),
+        ("Salt bands", |e| e.bands),
         ("Radicals", |e| e.chemiluminescence),
     ] {
         choose(&mut harness, label, "On");
@@ -278,7 +279,8 @@ fn each_effect_tells_its_state_its_bound_its_reason_and_its_cost() {
     assert!(again.contains(" ΔE · "), "{again}");
     harness.get_by_label_contains("wavelengths hold the colours of soot");
     harness.get_by_label("computed\nsoot glows and absorbs");
-    harness.get_by_label("left out\nthere is no salt");
+    let of_salt = harness.query_all_by_label("left out\nthere is no salt");
+    assert_eq!(of_salt.count(), 2, "lines and bands");
 
     // What this picture took says nothing of the next.
     choose(&mut harness, "Scattered light", "Off");

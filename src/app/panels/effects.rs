@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, effects: &mut EffectSettings, known: Known<'_>) 
 }
 
 /// What can be switched, in the order of the plan.
-fn rows(effects: &mut EffectSettings) -> [Row<'_>; 8] {
+fn rows(effects: &mut EffectSettings) -> [Row<'_>; 9] {
     [
         (
             Effect::Smoke,
@@ -67,8 +67,14 @@ fn rows(effects: &mut EffectSettings) -> [Row<'_>; 8] {
         (
             Effect::Lines,
             "Salt lines",
-            "Lines and bands of a salt's metal. Auto: where they can be seen.",
+            "Lines of a salt's atoms, each of one colour. Auto: where they can be seen.",
             &mut effects.lines,
+        ),
+        (
+            Effect::Bands,
+            "Salt bands",
+            "Bands of a salt's molecules: the green of copper, the red of strontium. Auto: where they can be seen.",
+            &mut effects.bands,
         ),
         (
             Effect::Chemiluminescence,

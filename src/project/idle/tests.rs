@@ -54,6 +54,14 @@ fn a_fuel_acts_through_models_that_look_at_it_and_where_it_says_how_much_soot_th
 fn a_salt_and_the_blue_glow_say_what_they_lack() {
     assert!(idle(&[], Control::SaltAmount).is_some());
     assert_eq!(idle(&["fuel.salt=copper"], Control::SaltAmount), None);
+    let off = ["fuel.salt=copper", "effects.lines=off", "effects.bands=off"];
+    assert!(
+        idle(&off, Control::SaltAmount)
+            .unwrap()
+            .contains("off under Effects")
+    );
+    let off = idle(&["effects.chemiluminescence=off"], Control::BlueGlow).unwrap();
+    assert!(off.contains("off under Effects"), "{off}");
     assert!(idle(&[], Control::BlueGlow).unwrap().contains("Flame from"));
     assert_eq!(idle(&["volume.flame.grid=soot"], Control::BlueGlow), None);
     assert_eq!(

@@ -42,6 +42,7 @@ fn only_what_changes_the_light_asks_for_a_picture() {
         (&["fuel.salt=sodium"], "fuel.name=acetylene"),
         (&["fuel.salt=sodium"], "air.temperature_k=350"),
         (&["fuel.salt=sodium"], "effects.lines=off"),
+        (&["fuel.salt=copper"], "effects.bands=off"),
         (&[field], "fuel.blue_glow=2"),
         (&[field], "fuel.name=acetylene"),
         (&[field], "effects.chemiluminescence=off"),
@@ -68,6 +69,10 @@ fn only_what_changes_the_light_asks_for_a_picture() {
         (&[][..], "fuel.salt_ppm=20"),
         (
             &["fuel.salt=sodium", "effects.lines=off"],
+            "fuel.salt=potassium",
+        ),
+        (
+            &["fuel.salt=sodium", "effects.lines=off", "effects.bands=off"],
             "fuel.salt=copper",
         ),
         (&["fuel.salt_ppm=0"], "fuel.salt=copper"),

@@ -238,7 +238,12 @@ pub const KEYS: &[Key] = &[
     key(
         "effects.lines",
         SWITCH,
-        "lines and bands of a salt's metal; auto: where there is a salt",
+        "lines of a salt's atoms; auto: where there is a salt",
+    ),
+    key(
+        "effects.bands",
+        SWITCH,
+        "bands of a salt's molecules; auto: where there is a salt that has any",
     ),
     key(
         "effects.chemiluminescence",

@@ -5,6 +5,7 @@
 
 use super::sketch::{self, Matter, Sketch};
 use crate::physics::soot::volume_fraction_factor;
+use crate::scene::glow::Kind;
 use crate::scene::means::PartMean;
 use crate::scene::{FlameParams, Scene};
 
@@ -54,13 +55,25 @@ pub(super) fn orders(sketch: &Sketch<'_>) -> f64 {
 pub(super) fn radicals(sketch: &Sketch<'_>) -> f64 {
     let without = sketch.picture(|brick| sketch.plain(brick), false);
     let with = sketch.picture(|brick| sketch.with_radicals(brick), false);
-    sketch::greatest(&without, &with)
+    // Where soot is dense only its outside is seen, which may be cooler than the mean.
+    let [cool, cool_with] = [false, true].map(|shines| {
+        let matter = |part: &PartMean| {
+            let matter = if shines {
+                sketch.with_radicals(part)
+            } else {
+                sketch.plain(part)
+            };
+            sketch.cooler(part, matter)
+        };
+        sketch.picture(matter, false)
+    });
+    sketch::greatest(&without, &with).max(sketch::greatest_seen(&without, &cool, &cool_with))
 }
 
-/// Lines and bands of a metal: as bright as if they were thin, and of the colour that counts most.
-pub(super) fn lines(sketch: &Sketch<'_>) -> f64 {
+/// Lines or bands of a metal: as bright as if they were thin, and of the colour that counts most.
+pub(super) fn of_metal(sketch: &Sketch<'_>, kind: Kind) -> f64 {
     let range_nm = [360.0, 830.0];
-    let glow = sketch.flame.glow();
+    let glow = sketch.flame.glow().only(kind);
     let shines = |brick: &PartMean| {
         let mut matter = sketch.plain(brick);
         if brick.hottest_k > 0.0 {

@@ -9,7 +9,7 @@ use super::sketch::Sketch;
 use super::wavelengths;
 use crate::physics::constants::METRES_PER_NM;
 use crate::render::{Settings, Switch};
-use crate::scene::glow::Feature;
+use crate::scene::glow::{Feature, Kind};
 use crate::scene::refractivity::{COMMON_PATH_NM, PATHS_NM};
 use crate::scene::{Scene, WavelengthSet};
 use crate::spectral::Wavelengths;
@@ -45,7 +45,14 @@ impl Decider<'_> {
         vec![
             self.soot(),
             self.smoke(),
-            self.lines(),
+            self.of_metal(
+                Kind::Line,
+                "the gas holds a metal's atoms, which glow by its heat",
+            ),
+            self.of_metal(
+                Kind::Band,
+                "the gas holds a metal's molecules, which glow by its heat",
+            ),
             self.radicals(),
             scattering,
             orders,
@@ -143,16 +150,20 @@ impl Decider<'_> {
         }
     }
 
-    fn lines(&self) -> Decision {
-        let effect = Effect::Lines;
+    /// Lines or bands of a salt's metal.
+    fn of_metal(&self, kind: Kind, reason: &str) -> Decision {
+        let effect = Effect::of_glow(kind);
         if let Some(off) = self.switched_off(effect) {
             return off;
         }
-        if !self.scene.flame.glow().has_metal() {
+        let glow = self.scene.flame.glow();
+        if !glow.has_metal() {
             return self.without(effect, "there is no salt");
         }
-        let bound = bounds::lines(self.sketch());
-        self.by_bound(effect, bound, "the gas holds a salt that glows by its heat")
+        if !glow.has(kind) {
+            return self.without(effect, "this salt has none");
+        }
+        self.by_bound(effect, bounds::of_metal(self.sketch(), kind), reason)
     }
 
     fn radicals(&self) -> Decision {

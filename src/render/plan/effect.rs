@@ -1,6 +1,7 @@
 //! The effects that a scene may call for, and what was decided about each.
 
 use crate::render::{Effects, Switch};
+use crate::scene::glow::Kind;
 
 /// Something that a picture may show or leave out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -9,8 +10,10 @@ pub enum Effect {
     Soot,
     /// Smoke beside the soot, which mostly absorbs.
     Smoke,
-    /// Lines and bands of a salt's metal.
+    /// Lines of a salt's atoms.
     Lines,
+    /// Bands of a salt's molecules.
+    Bands,
     /// Light of radicals where gas burns.
     Chemiluminescence,
     /// The fire's own light, scattered once.
@@ -29,10 +32,11 @@ pub enum Effect {
 
 impl Effect {
     /// Every effect, in the order in which they are told.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Soot,
         Self::Smoke,
         Self::Lines,
+        Self::Bands,
         Self::Chemiluminescence,
         Self::Scattering,
         Self::ScatteringOrders,
@@ -48,6 +52,7 @@ impl Effect {
             Self::Soot => "emission-absorption",
             Self::Smoke => "smoke",
             Self::Lines => "lines",
+            Self::Bands => "bands",
             Self::Chemiluminescence => "chemiluminescence",
             Self::Scattering => "scattering",
             Self::ScatteringOrders => "scattering_orders",
@@ -58,10 +63,20 @@ impl Effect {
         }
     }
 
+    /// The one that light of the gas belongs to.
+    pub(super) fn of_glow(kind: Kind) -> Self {
+        match kind {
+            Kind::Line => Self::Lines,
+            Kind::Band => Self::Bands,
+            Kind::Radical => Self::Chemiluminescence,
+        }
+    }
+
     /// What a person asked for. Wavelengths are asked for by their number, soot by its amount.
     pub fn switch(self, effects: &Effects) -> Switch {
         match self {
             Self::Lines => effects.lines,
+            Self::Bands => effects.bands,
             Self::Chemiluminescence => effects.chemiluminescence,
             Self::Scattering => effects.scattering,
             Self::Refraction => effects.refraction,
@@ -134,6 +149,7 @@ impl Effects {
         };
         Self {
             lines: locked(Effect::Lines),
+            bands: locked(Effect::Bands),
             chemiluminescence: locked(Effect::Chemiluminescence),
             scattering: locked(Effect::Scattering),
             scattering_orders: locked(Effect::ScatteringOrders),

@@ -5,6 +5,7 @@ use super::{Plan, wavelengths};
 use crate::render::fields::Fields;
 use crate::render::{Cancel, Level, Settings};
 use crate::scene::Scene;
+use crate::scene::glow::Kind;
 
 impl Plan {
     /// The plan with one effect switched the other way, and what cannot be without it left out as well. `None` where that
@@ -51,8 +52,9 @@ impl Plan {
         match effect {
             // Soot and smoke are packed or not.
             Effect::Soot | Effect::Smoke => false,
-            Effect::Lines => flame.glow().has_metal(),
-            Effect::Chemiluminescence => flame.glow().has_radicals(),
+            Effect::Lines => flame.glow().has(Kind::Line),
+            Effect::Bands => flame.glow().has(Kind::Band),
+            Effect::Chemiluminescence => flame.glow().has(Kind::Radical),
             Effect::Scattering => flame.scattering().is_some(),
             Effect::ScatteringOrders => self.wanted.scatter,
             Effect::Refraction => flame.bending().is_some(),

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::super::fuel::Fuel;
 use super::super::salt::Salt;
+use super::feature::Kind;
 use crate::physics::bands::{self, Band};
 use crate::physics::blackbody;
 use crate::physics::constants::METRES_PER_NM;
@@ -35,9 +36,12 @@ pub(super) enum Emitter {
 }
 
 impl Emitter {
-    /// Whether it is in equilibrium with the gas.
-    pub(super) fn is_thermal(&self) -> bool {
-        !matches!(self, Self::Radical { .. })
+    pub(super) fn kind(&self) -> Kind {
+        match self {
+            Self::Line { .. } => Kind::Line,
+            Self::Band { .. } => Kind::Band,
+            Self::Radical { .. } => Kind::Radical,
+        }
     }
 }
 

@@ -117,10 +117,36 @@ pub enum Growth {
     Box,
 }
 
+/// Whose light a feature is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Of a metal's free atoms.
+    Line,
+    /// Of a metal's molecules.
+    Band,
+    /// Of radicals where gas burns.
+    Radical,
+}
+
 impl Feature {
+    /// Whose light it is.
+    pub fn kind(&self) -> Kind {
+        match self.source {
+            Source::Thermal {
+                growth: Growth::Line,
+                ..
+            } => Kind::Line,
+            Source::Thermal {
+                growth: Growth::Box,
+                ..
+            } => Kind::Band,
+            Source::Radical(_) => Kind::Radical,
+        }
+    }
+
     /// Whether it is light of radicals.
     pub fn is_radical(&self) -> bool {
-        matches!(self.source, Source::Radical(_))
+        self.kind() == Kind::Radical
     }
 }
 
