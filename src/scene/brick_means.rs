@@ -23,8 +23,8 @@ use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 
 use super::means::{Lamp, MEANS, MEANS_NM, Means, PART_EDGE, PARTS, PartMean};
-use super::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES};
-use crate::math::lanes;
+use super::medium::{BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES};
+use crate::math::lanes::{self, Kernel};
 use crate::physics::blackbody;
 
 /// Most blocks between which light is summed up.
@@ -44,6 +44,7 @@ fn of_medium(medium: &Medium) -> Means {
         .enumerate()
         .flat_map_iter(|(slot, samples)| {
             let own = slot * BRICK_SAMPLES..(slot + 1) * BRICK_SAMPLES;
+            let glows = glows(samples);
             let steepest = steepest(samples) / medium.voxel_size_m;
             (0..PARTS).map(move |part| {
                 let beside = |field: &[f32]| {
@@ -54,7 +55,7 @@ fn of_medium(medium: &Medium) -> Means {
                     burning: beside(&medium.flame),
                     smoke: beside(&medium.smoke),
                     steepest,
-                    ..of_samples(samples, part)
+                    ..of_samples(samples, glows.as_deref(), part)
                 }
             })
         })
@@ -88,57 +89,87 @@ fn mean_of(field: &[f32], part: usize) -> f64 {
     f64::from(shares.sum::<f32>())
 }
 
-fn of_samples(samples: &[[f32; 2]], part: usize) -> PartMean {
-    let exponents = MEANS_NM.map(|nm| (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32);
-    let (mut soot, mut hottest, mut glow) = (0.0_f32, 0.0_f32, [0.0_f32; MEANS]);
+/// f_v B over the first radiation constant by λ⁵, of each sample of a brick at each wavelength.
+type Glows = [[f32; BRICK_SAMPLES]; MEANS];
+
+/// Of a brick; `None` where it has no soot.
+fn glows(samples: &[[f32; 2]]) -> Option<Box<Glows>> {
+    if samples.iter().all(|sample| sample[0] <= 0.0) {
+        return None;
+    }
+    let mut glows = Box::new([[0.0; BRICK_SAMPLES]; MEANS]);
+    lanes::dispatch(Glowing {
+        samples,
+        glows: &mut glows,
+    });
+    Some(glows)
+}
+
+struct Glowing<'a> {
+    samples: &'a [[f32; 2]],
+    glows: &'a mut Glows,
+}
+
+impl Kernel for Glowing<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (glow, nm) in self.glows.iter_mut().zip(*MEANS_NM) {
+            let exponent = (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32;
+            for (glow, [fraction, kelvin]) in glow.iter_mut().zip(self.samples) {
+                let wien = lanes::exp(-exponent / kelvin);
+                *glow = fraction.max(0.0) * wien / (1.0 - wien);
+            }
+        }
+    }
+}
+
+fn of_samples(samples: &[[f32; 2]], glows: Option<&Glows>, part: usize) -> PartMean {
+    let hottest = |hottest: f32, &(i, _): &(usize, f32)| hottest.max(samples[i][1]);
+    let mut mean = PartMean {
+        hottest_k: f64::from(WEIGHTS[part].iter().fold(0.0, hottest)),
+        ..PartMean::default()
+    };
+    let Some(glows) = glows else {
+        return mean;
+    };
+    let mut soot = 0.0_f32;
     let [mut heat, mut squares] = [0.0_f64; 2];
     for &(i, w) in &WEIGHTS[part] {
         let [fraction, kelvin] = samples[i];
-        hottest = hottest.max(kelvin);
-        if fraction <= 0.0 {
-            continue;
-        }
-        soot += w * fraction;
-        let (share, kelvin_f64) = (f64::from(w * fraction), f64::from(kelvin));
-        heat += share * kelvin_f64;
-        squares += share * kelvin_f64 * kelvin_f64;
-        let inverse = 1.0 / kelvin;
-        for (glow, exponent) in glow.iter_mut().zip(&exponents) {
-            let wien = lanes::exp(-exponent * inverse);
-            *glow += w * fraction * wien / (1.0 - wien);
-        }
+        let share = w * fraction.max(0.0);
+        soot += share;
+        let (share, kelvin) = (f64::from(share), f64::from(kelvin));
+        heat += share * kelvin;
+        squares += share * kelvin * kelvin;
     }
-    let cool = if soot > 0.0 {
-        let mean = heat / f64::from(soot);
-        mean - (squares / f64::from(soot) - mean * mean).max(0.0).sqrt()
-    } else {
-        0.0
-    };
-    let dim = |i: usize| {
-        if cool > 1.0 {
-            f64::from(soot) * blackbody::spectral_radiance(MEANS_NM[i], cool)
-        } else {
-            0.0
-        }
-    };
-    let scale = |i: usize| blackbody::FIRST_RADIATION_CONSTANT / MEANS_NM[i].powi(5);
-    PartMean {
-        soot: f64::from(soot),
-        glow: std::array::from_fn(|i| scale(i) * f64::from(glow[i])),
-        dim: std::array::from_fn(dim),
-        hottest_k: f64::from(hottest),
-        ..PartMean::default()
+    if soot <= 0.0 {
+        return mean;
     }
+    let soot = f64::from(soot);
+    let even = heat / soot;
+    let cool = even - (squares / soot - even * even).max(0.0).sqrt();
+    mean.soot = soot;
+    mean.glow = std::array::from_fn(|i| {
+        let scale = blackbody::FIRST_RADIATION_CONSTANT / MEANS_NM[i].powi(5);
+        scale * mean_of(&glows[i], part)
+    });
+    if cool > 1.0 {
+        mean.dim = MEANS_NM.map(|nm| soot * blackbody::spectral_radiance(nm, cool));
+    }
+    mean
 }
 
 /// Largest difference of 1/T between samples that follow each other, 1/K.
 fn steepest(samples: &[[f32; 2]]) -> f64 {
+    let inverse: Vec<f32> = samples.iter().map(|sample| 1.0 / sample[1]).collect();
     let mut most = 0.0_f32;
     for stride in [1, SAMPLES, SAMPLES * SAMPLES] {
-        for (i, pair) in samples.iter().zip(&samples[stride..]).enumerate() {
-            // The last sample of a row has no next one.
-            if i / stride % SAMPLES < BRICK {
-                most = most.max((1.0 / pair.0[1] - 1.0 / pair.1[1]).abs());
+        // Rows of so many samples have a next one each, along this axis.
+        for slab in inverse.chunks_exact(stride * SAMPLES) {
+            for (one, next) in slab.iter().zip(&slab[stride..]) {
+                most = most.max((one - next).abs());
             }
         }
     }

@@ -153,10 +153,7 @@ impl Fields<'_> {
                 .par_chunks_exact_mut(BRICK_SAMPLES)
                 .zip(occupied)
                 .for_each(|(of_smoke, brick)| {
-                    let value = smoke.read(first(brick));
-                    for_each_sample(of_smoke, first(brick), |voxel, of_smoke| {
-                        *of_smoke = value(voxel) as f32;
-                    });
+                    smoke.for_each_sample(first(brick), |i, value| of_smoke[i] = value as f32);
                 });
         }
 
@@ -266,26 +263,24 @@ impl Medium {
     /// Which bricks bend light: those that hold gas hotter than this, and those at whose border the difference between
     /// neighbours reaches such gas. Without the latter the gradient would end in a step at a brick's face.
     fn bending(&self, packed: &[UVec3], above_k: f32) -> Vec<bool> {
-        let edge = SAMPLES as i32;
         let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
         // The bricks that each one makes bend: itself, and those beside a face whose next layer is hot.
         let reached: Vec<Vec<IVec3>> = bricks
             .map(|samples| {
-                let mut reached = Vec::new();
-                let mut add = |step: IVec3| {
-                    if !reached.contains(&step) {
-                        reached.push(step);
-                    }
-                };
-                for (i, _) in samples.iter().enumerate().filter(|(_, s)| s[1] > above_k) {
-                    let i = i as i32;
-                    add(IVec3::ZERO);
-                    let place = [i % edge, i / edge % edge, i / (edge * edge)];
-                    for (at, axis) in place.into_iter().zip(IVec3::AXES) {
-                        match at {
-                            1 => add(-axis),
-                            _ if at == edge - 2 => add(axis),
-                            _ => {}
+                if samples.iter().all(|sample| sample[1] <= above_k) {
+                    return Vec::new();
+                }
+                let mut reached = vec![IVec3::ZERO];
+                let strides = [1, SAMPLES, SAMPLES * SAMPLES];
+                for (along, axis) in IVec3::AXES.into_iter().enumerate() {
+                    let [a, b] = [strides[(along + 1) % 3], strides[(along + 2) % 3]];
+                    for (layer, step) in [(1, -axis), (SAMPLES - 2, axis)] {
+                        let is_hot = |i: usize| {
+                            let at = layer * strides[along] + i % SAMPLES * a + i / SAMPLES * b;
+                            samples[at][1] > above_k
+                        };
+                        if (0..SAMPLES * SAMPLES).any(is_hot) {
+                            reached.push(step);
                         }
                     }
                 }
@@ -332,20 +327,15 @@ impl Medium {
 
 /// The bricks of a field in another order; nothing where there is no field.
 fn in_order<T: Copy>(field: &[T], order: &[usize]) -> Vec<T> {
-    let brick = |&i: &usize| field.get(i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES);
-    order.iter().filter_map(brick).flatten().copied().collect()
-}
-
-/// Visits a brick's samples with their voxels; the first is voxel `first`.
-fn for_each_sample<T>(samples: &mut [T], first: IVec3, mut visit: impl FnMut(IVec3, &mut T)) {
-    let edge = SAMPLES as i32;
-    for (i, sample) in samples.iter_mut().enumerate() {
-        let i = i as i32;
-        visit(
-            first + IVec3::new(i % edge, i / edge % edge, i / (edge * edge)),
-            sample,
+    let mut moved = Vec::with_capacity(field.len().min(order.len() * BRICK_SAMPLES));
+    for &i in order {
+        moved.extend_from_slice(
+            field
+                .get(i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES)
+                .unwrap_or_default(),
         );
     }
+    moved
 }
 
 /// Fills a brick's samples, which come as ambient air; the first is voxel `first`.
@@ -356,15 +346,11 @@ fn pack_brick(
     samples: &mut [Sample],
 ) {
     for source in absorbers {
-        let value = source.read(first);
-        for_each_sample(samples, first, |voxel, sample| {
-            sample[0] += value(voxel) as f32;
-        });
+        source.for_each_sample(first, |i, value| samples[i][0] += value as f32);
     }
     if let Some(temperature) = temperature {
-        let value = temperature.read(first);
-        for_each_sample(samples, first, |voxel, sample| {
-            sample[1] = value(voxel).max(COLDEST_K) as f32;
+        temperature.for_each_sample(first, |i, value| {
+            samples[i][1] = value.max(COLDEST_K) as f32;
         });
     }
 }
@@ -372,10 +358,7 @@ fn pack_brick(
 /// Fills a brick's flame field from its grid; 0 without one.
 fn read_flame(flame: Option<&Source<'_>>, first: IVec3, burning: &mut [f32]) {
     if let Some(flame) = flame {
-        let value = flame.read(first);
-        for_each_sample(burning, first, |voxel, burning| {
-            *burning = value(voxel).clamp(0.0, 1.0) as f32;
-        });
+        flame.for_each_sample(first, |i, value| burning[i] = value.clamp(0.0, 1.0) as f32);
     }
 }
 

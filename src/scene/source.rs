@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, IVec3};
 
-use super::medium::BRICK;
+use super::medium::{BRICK, BRICK_SAMPLES, SAMPLES};
 use crate::math::Aabb;
 use crate::volume::{BrickRef, FieldMap, Grid, Volume, brick_of};
 
@@ -41,29 +41,54 @@ impl<'a> Source<'a> {
         !self.grid.bounds().is_empty()
     }
 
-    /// The physical values of a brick's samples, the first at voxel `first` of the reference lattice.
-    pub(super) fn read(&self, first: IVec3) -> impl Fn(IVec3) -> f64 {
-        // The brick and its upper neighbours, found once for all of their samples.
+    /// Visits the physical values of a brick's samples, x fastest; the first is voxel `first` of the reference lattice, which
+    /// lies on a brick's border.
+    pub(super) fn for_each_sample(&self, first: IVec3, mut visit: impl FnMut(usize, f64)) {
+        let edge = SAMPLES as i32;
+        let physical = |raw: f64| self.amount * self.map.apply(raw);
+        let mut one_by_one = |raw: &dyn Fn(IVec3) -> f64| {
+            for i in 0..BRICK_SAMPLES {
+                let at = i as i32;
+                let step = IVec3::new(at % edge, at / edge % edge, at / (edge * edge));
+                visit(i, physical(raw(first + step)));
+            }
+        };
+        if let Some(index) = &self.index_from_reference {
+            let at = |voxel: IVec3| index.transform_point3(voxel.as_dvec3());
+            return one_by_one(&|voxel| self.grid.sample_trilinear(at(voxel)));
+        }
+        let last = first + IVec3::splat(edge - 1);
+        if self.grid.bordered(first) != first || self.grid.bordered(last) != last {
+            return one_by_one(&|voxel| f64::from(self.grid.value(voxel)));
+        }
+        // The brick and its upper neighbours, found once for all of their samples; rows of them are copied.
         let corner = brick_of(first);
         let near: [BrickRef<'_>; 8] = std::array::from_fn(|i| {
             let i = i as i32;
             self.grid
                 .brick(corner + IVec3::new(i & 1, (i >> 1) & 1, i >> 2))
         });
-        move |voxel| {
-            let raw = if let Some(index) = &self.index_from_reference {
-                self.grid
-                    .sample_trilinear(index.transform_point3(voxel.as_dvec3()))
-            } else {
-                let voxel = self.grid.bordered(voxel);
-                let offset = brick_of(voxel) - corner;
-                if offset.cmpge(IVec3::ZERO).all() && offset.cmple(IVec3::ONE).all() {
-                    f64::from(near[(offset.x + 2 * offset.y + 4 * offset.z) as usize].value(voxel))
-                } else {
-                    f64::from(self.grid.value(voxel))
+        let mut row = [0.0; SAMPLES];
+        for number in 0..SAMPLES * SAMPLES {
+            let [y, z] = [number % SAMPLES, number / SAMPLES];
+            let brick = 2 * (y / BRICK) + 4 * (z / BRICK);
+            let begin = BRICK * (y % BRICK + BRICK * (z % BRICK));
+            match near[brick] {
+                BrickRef::Constant(value) => row[..BRICK].fill(f64::from(value)),
+                BrickRef::Dense(values) => {
+                    let values = &values[begin..begin + BRICK];
+                    for (raw, value) in row.iter_mut().zip(values) {
+                        *raw = f64::from(*value);
+                    }
                 }
-            };
-            self.amount * self.map.apply(raw)
+            }
+            row[BRICK] = f64::from(match near[brick + 1] {
+                BrickRef::Constant(value) => value,
+                BrickRef::Dense(values) => values[begin],
+            });
+            for (x, raw) in row.into_iter().enumerate() {
+                visit(number * SAMPLES + x, physical(raw));
+            }
         }
     }
 

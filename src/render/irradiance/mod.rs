@@ -92,7 +92,8 @@ struct Effort {
     opening: [f64; 2],
     /// Share of a point's light below which a partly hidden part is not taken apart.
     finest_hidden: f64,
-    /// Most blocks of channels that all tables of the lowest level hold; 32 bytes each.
+    /// Most blocks of channels that all tables of the lowest level hold at up to eight wavelengths; 32 bytes each. At
+    /// sixteen, the most that there are, they hold one more for each place.
     table_blocks: usize,
 }
 
@@ -181,7 +182,9 @@ impl FireLight {
         let fineness = effort.fineness(bricks, directions.len());
         let cells = Cells::new(medium, &channels, fineness, cancel)?;
         let blocks = channels.blocks();
-        let most_tables = effort.table_blocks / (directions.len() * blocks);
+        // As many whatever the wavelengths, so that these alone make no difference.
+        let most_tables = effort.table_blocks
+            / (directions.len() * (BLOCK + tables.features.len()).div_ceil(BLOCK));
         let tree = Tree::new(&cells, blocks, most_tables);
         let escape = Escape::new(
             medium,

@@ -6,13 +6,11 @@ use std::fmt::Write as _;
 use super::bounds;
 use super::effect::{Decision, Effect, figures};
 use super::sketch::Sketch;
-use super::wavelengths;
 use crate::physics::constants::METRES_PER_NM;
 use crate::render::{Settings, Switch};
 use crate::scene::glow::{Feature, Kind};
 use crate::scene::refractivity::{COMMON_PATH_NM, PATHS_NM};
-use crate::scene::{Scene, WavelengthSet};
-use crate::spectral::Wavelengths;
+use crate::scene::Scene;
 
 /// Change of the picture below which an effect is left out, ΔE_ITP: a tenth of what is just seen.
 pub const OFF_BELOW: f64 = 0.1;
@@ -104,7 +102,7 @@ impl Decider<'_> {
         }
     }
 
-    fn is_called_for(&self, effect: Effect, bound: f64) -> bool {
+    pub(super) fn is_called_for(&self, effect: Effect, bound: f64) -> bool {
         let before = self.before.iter().find(|it| it.effect == effect);
         if bound < OFF_BELOW {
             false
@@ -293,63 +291,5 @@ impl Decider<'_> {
             };
         }
         decision
-    }
-
-    /// The set that is transported, and whether it is more than the settings ask for: where those are automatic the cheapest
-    /// that is good enough from there on, else the best.
-    pub(super) fn wavelengths(&self, scattering: &Decision) -> (Wavelengths, Decision) {
-        let asked = self.settings.wavelengths;
-        let switch = self.settings.effects.wavelengths;
-        let scattered = wavelengths::scattered_share(scattering);
-        let with = |set: WavelengthSet| {
-            let nodes = wavelengths::of(self.scene, set, scattered);
-            let bound = wavelengths::bound(self.scene, &nodes, scattered);
-            (set, nodes, bound)
-        };
-        let mut best = with(asked);
-        let first = best.2;
-        let finer = match switch {
-            Switch::On => true,
-            Switch::Auto => self.is_called_for(Effect::Wavelengths, first),
-            Switch::Off => false,
-        };
-        if finer {
-            let finer = WavelengthSet::ALL
-                .into_iter()
-                .filter(|set| set.count() > asked.count());
-            for set in finer {
-                let next = with(set);
-                if next.2 < best.2 {
-                    best = next;
-                }
-                if best.2 <= ON_ABOVE {
-                    break;
-                }
-            }
-        }
-        let (set, nodes, bound) = best;
-        let on = set != asked;
-        let kelvin = self.scene.flame.medium().peak_temperature_k();
-        let reason = if on {
-            format!(
-                "{} wavelengths would be off by up to {} ΔE: {} are taken",
-                asked.count(),
-                figures(first),
-                set.count()
-            )
-        } else {
-            format!(
-                "{} wavelengths hold the colours of soot at up to {kelvin:.0} K",
-                set.count()
-            )
-        };
-        let decision = Decision {
-            effect: Effect::Wavelengths,
-            switch,
-            on,
-            bound: Some(if on { first } else { bound }),
-            reason,
-        };
-        (nodes, decision)
     }
 }

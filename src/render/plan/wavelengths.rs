@@ -6,11 +6,13 @@
 
 use std::sync::LazyLock;
 
-use super::effect::Decision;
+use super::decide::{Decider, ON_ABOVE};
+use super::effect::{Decision, Effect, figures};
 use crate::colour::reflectance::Reflectance;
 use crate::colour::{cie, itp};
 use crate::physics::blackbody;
 use crate::physics::soot::SootLaw;
+use crate::render::Switch;
 use crate::render::difference::WHITE_CD_M2;
 use crate::render::tables::COOLEST_K;
 use crate::scene::{Scene, WavelengthSet};
@@ -90,12 +92,89 @@ pub(super) fn scattered_share(scattering: &Decision) -> f64 {
     }
 }
 
+impl Decider<'_> {
+    /// The set that is transported, and whether it is more than the settings ask for: where those are automatic the cheapest
+    /// that is good enough from there on, else the best.
+    pub(super) fn wavelengths(&self, scattering: &Decision) -> (Wavelengths, Decision) {
+        let asked = self.settings.wavelengths;
+        let switch = self.settings.effects.wavelengths;
+        let scattered = scattered_share(scattering);
+        let with = |set: WavelengthSet| {
+            let nodes = of(self.scene, set, scattered);
+            let bound = bound(self.scene, &nodes, scattered);
+            (set, nodes, bound)
+        };
+        let mut best = with(asked);
+        let first = best.2;
+        let finer = match switch {
+            Switch::On => true,
+            Switch::Auto => self.is_called_for(Effect::Wavelengths, first),
+            Switch::Off => false,
+        };
+        if finer {
+            let finer = WavelengthSet::ALL
+                .into_iter()
+                .filter(|set| set.count() > asked.count());
+            for set in finer {
+                let next = with(set);
+                if next.2 < best.2 {
+                    best = next;
+                }
+                if best.2 <= ON_ABOVE {
+                    break;
+                }
+            }
+        }
+        let (set, nodes, bound) = best;
+        let on = set != asked;
+        let known = !is_beyond(self.scene);
+        let kelvin = self.scene.flame.medium().peak_temperature_k();
+        let reason = if on {
+            format!(
+                "{} wavelengths would be off by up to {} ΔE: {} are taken",
+                asked.count(),
+                figures(first),
+                set.count()
+            )
+        } else {
+            format!(
+                "{} wavelengths hold the colours of soot at up to {kelvin:.0} K",
+                set.count()
+            )
+        };
+        let doubt = if known {
+            ""
+        } else {
+            "; what light a stage gets through soot as dense as this depends on more than them"
+        };
+        let decision = Decision {
+            effect: Effect::Wavelengths,
+            switch,
+            on,
+            bound: known.then_some(if on { first } else { bound }),
+            reason: format!("{reason}{doubt}"),
+        };
+        (nodes, decision)
+    }
+}
+
 /// Nodes and weights of a set that hold this scene's light, of which a share is scattered.
 pub(super) fn of(scene: &Scene, set: WavelengthSet, scattered: f64) -> Wavelengths {
     let tints = Tints::of(scene, scattered).each(scene);
     let tints: Vec<&dyn Fn(f64) -> f64> = tints.iter().map(|tint| &**tint).collect();
     set.tinted_wavelengths(scene.flame.soot(), &tints)
 }
+
+/// Whether a stage stands in the light of soot so dense that what leaves it hangs on single voxels' faces, which shares of a
+/// wavelength tip over: no bound is known for that.
+pub(super) fn is_beyond(scene: &Scene) -> bool {
+    let medium = scene.flame.medium();
+    let densest = f64::from(medium.peak_volume_fraction()) * medium.voxel_size_m();
+    scene.stage.has_surfaces() && densest * scene.flame.absorption_per_sample(DEPTH_NM) > OPAQUE
+}
+
+/// Optical depth of a voxel at 555 nm from which on it is opaque: an eighth is let through.
+const OPAQUE: f64 = 2.0;
 
 /// The greatest difference that more wavelengths would make, ΔE_ITP. Scattered light counts as the share of all light that it
 /// may be.
