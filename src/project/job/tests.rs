@@ -99,3 +99,41 @@ fn only_what_changes_the_light_asks_for_a_picture() {
         assert!(!asks_anew(before, change), "{before:?} then {change}");
     }
 }
+
+#[test]
+fn a_field_is_packed_once_an_effect_reads_it_and_not_before() {
+    // The torch's soot stands for all: soot, smoke beside it, and where gas burns.
+    let volume = Arc::new(procedural::torch());
+    let medium = |more: &[&str], before: Option<&Scene>| {
+        let mut project = Project::default();
+        let sets = [
+            "volume.flame.grid=soot",
+            "volume.smoke.grid=soot",
+            "volume.smoke.scale=0.2",
+            "effects.smoke=on",
+            "effects.chemiluminescence=off",
+            "effects.scattering=off",
+            "effects.refraction=off",
+        ];
+        let sets = sets.iter().chain(more).copied();
+        project.set_all(sets).unwrap();
+        project.job(&volume).unwrap().scene(before)
+    };
+    let fields = |scene: &Scene| {
+        let medium = scene.flame.medium();
+        let [flame, smoke] = [&medium.flame, &medium.smoke].map(|field| !field.is_empty());
+        (flame, smoke, scene.flame.has_smoke())
+    };
+    let plain = medium(&[], None);
+    assert_eq!(fields(&plain), (false, false, true));
+    let burning = medium(&["effects.chemiluminescence=auto"], Some(&plain));
+    assert_eq!(fields(&burning), (true, false, true));
+    let scattering = medium(&["effects.scattering=on"], Some(&burning));
+    assert_eq!(fields(&scattering), (false, true, true));
+    let smokeless = medium(&["effects.smoke=off"], Some(&scattering));
+    assert_eq!(fields(&smokeless), (false, false, false));
+    // Hot gas without soot is there for bent light alone.
+    let bricks = |scene: &Scene| scene.flame.medium().occupancy().0;
+    let bent = medium(&["effects.refraction=on"], Some(&plain));
+    assert!(bricks(&bent) > bricks(&plain));
+}
