@@ -3,7 +3,7 @@
 //! Nothing is rendered for it: a [`Sketch`] of brick means with the effect's most and without it says how far apart two
 //! pictures can be. Each bound is checked against pictures with and without the effect in `tests/bounds.rs`.
 
-use super::sketch::{self, Matter, Sketch};
+use super::sketch::{self, Of, Sketch};
 use crate::physics::soot::volume_fraction_factor;
 use crate::scene::glow::Kind;
 use crate::scene::means::PartMean;
@@ -17,14 +17,11 @@ const SMOKE_NM: f64 = 400.0;
 
 /// Scattering once: what it takes away, and what it brings.
 pub(super) fn scattering(sketch: &Sketch<'_>) -> f64 {
-    let plain = sketch.picture(|brick| sketch.with_radicals(brick), true);
-    let less = sketch.picture(|brick| sketch.scattered_away(brick), true);
-    let more = sketch.picture(|brick| sketch.scattered_here(brick), true);
-    let cool = sketch.picture(|part| sketch.cooler(part, sketch.plain(part)), true);
-    let cool_more = sketch.picture(
-        |part| sketch.cooler(part, sketch.scattered_here(part)),
-        true,
-    );
+    let plain = sketch.of(Of::Radicals, true);
+    let less = sketch.of(Of::ScatteredAway, true);
+    let more = sketch.of(Of::ScatteredHere, true);
+    let cool = sketch.of_cooler(Of::Plain, true);
+    let cool_more = sketch.of_cooler(Of::ScatteredHere, true);
     sketch::greatest(&plain, &less)
         .max(sketch::greatest(&plain, &more))
         .max(sketch::greatest_seen(&plain, &cool, &cool_more))
@@ -33,19 +30,10 @@ pub(super) fn scattering(sketch: &Sketch<'_>) -> f64 {
 
 /// Scattering more than once.
 pub(super) fn orders(sketch: &Sketch<'_>) -> f64 {
-    let once = sketch.picture(|brick| sketch.scattered_here(brick), true);
-    let often = sketch.picture(|brick| sketch.scattered_often(brick), true);
-    let [cool, cool_often] = [false, true].map(|again| {
-        let matter = |part: &PartMean| {
-            let matter = if again {
-                sketch.scattered_often(part)
-            } else {
-                sketch.scattered_here(part)
-            };
-            sketch.cooler(part, matter)
-        };
-        sketch.picture(matter, true)
-    });
+    let once = sketch.of(Of::ScatteredHere, true);
+    let often = sketch.of(Of::ScatteredOften, true);
+    let cool = sketch.of_cooler(Of::ScatteredHere, true);
+    let cool_often = sketch.of_cooler(Of::ScatteredOften, true);
     sketch::greatest(&once, &often)
         .max(sketch::greatest_seen(&once, &cool, &cool_often))
         .min(MOST)
@@ -53,20 +41,11 @@ pub(super) fn orders(sketch: &Sketch<'_>) -> f64 {
 
 /// The light of radicals.
 pub(super) fn radicals(sketch: &Sketch<'_>) -> f64 {
-    let without = sketch.picture(|brick| sketch.plain(brick), false);
-    let with = sketch.picture(|brick| sketch.with_radicals(brick), false);
+    let without = sketch.of(Of::Plain, false);
+    let with = sketch.of(Of::Radicals, false);
     // Where soot is dense only its outside is seen, which may be cooler than the mean.
-    let [cool, cool_with] = [false, true].map(|shines| {
-        let matter = |part: &PartMean| {
-            let matter = if shines {
-                sketch.with_radicals(part)
-            } else {
-                sketch.plain(part)
-            };
-            sketch.cooler(part, matter)
-        };
-        sketch.picture(matter, false)
-    });
+    let cool = sketch.of_cooler(Of::Plain, false);
+    let cool_with = sketch.of_cooler(Of::Radicals, false);
     sketch::greatest(&without, &with).max(sketch::greatest_seen(&without, &cool, &cool_with))
 }
 
@@ -83,16 +62,15 @@ pub(super) fn of_metal(sketch: &Sketch<'_>, kind: Kind) -> f64 {
         }
         matter
     };
-    let without = sketch.picture(|brick| sketch.plain(brick), false);
+    let without = sketch.of(Of::Plain, false);
     let with = sketch.picture(shines, false);
     sketch::greatest(&without, &with)
 }
 
 /// The fire's light on what stands around.
 pub(super) fn fire_light(sketch: &Sketch<'_>) -> f64 {
-    let matter = |brick: &PartMean| -> Matter { sketch.with_radicals(brick) };
-    let dark = sketch.picture(matter, false);
-    let lit = sketch.picture(matter, true);
+    let dark = sketch.of(Of::Radicals, false);
+    let lit = sketch.of(Of::Radicals, true);
     sketch::greatest(&lit, &dark)
 }
 

@@ -8,9 +8,9 @@ use super::effect::{Decision, Effect, figures};
 use super::sketch::Sketch;
 use crate::physics::constants::METRES_PER_NM;
 use crate::render::{Settings, Switch};
+use crate::scene::Scene;
 use crate::scene::glow::{Feature, Kind};
 use crate::scene::refractivity::{COMMON_PATH_NM, PATHS_NM};
-use crate::scene::Scene;
 
 /// Change of the picture below which an effect is left out, ΔE_ITP: a tenth of what is just seen.
 pub const OFF_BELOW: f64 = 0.1;

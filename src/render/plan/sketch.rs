@@ -5,23 +5,23 @@
 //! The same raster with another effect's matter gives the change that the effect makes, brick by brick. What an effect adds
 //! is put in from above: light from all sides as if nothing dimmed it, and [`UNEVEN`] times as much of it.
 
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::colour::itp;
-use crate::math::Ray;
+use crate::math::lanes;
 use crate::physics::soot::SootLaw;
 use crate::render::difference::{self, LIT};
-use crate::render::walk::{Stretch, for_each_stored};
 use crate::scene::glow::{Feature, Source};
-use crate::scene::means::{MEANS, MEANS_NM, Means, PART_EDGE, PARTS, PartMean, Spectrum};
-use crate::scene::medium::BRICK;
+use crate::scene::means::{MEANS, MEANS_NM, Means, PART_EDGE, PartMean, Spectrum};
 use crate::scene::{Flame, Scene, WavelengthSet};
 
-/// Rays along the longer side of the raster.
-const RAYS: u32 = 40;
+mod passes;
+
+use passes::{Behind, Pass, passes};
+
 /// How much brighter than a brick's mean a place of it may be lit: light is uneven within a brick, and a block of bricks is
 /// lit by its own light more than by others'. Of the fires that were tried the worst asks for 2.9.
 const UNEVEN: f64 = 4.0;
@@ -43,21 +43,6 @@ pub(super) struct Matter {
     pub(super) gas: [f64; 3],
 }
 
-/// What a sketched ray ends at.
-#[derive(Debug, Clone, Copy)]
-enum Behind {
-    Dark,
-    Screen([f64; 3]),
-    /// A surface: place, normal, mean albedo.
-    Surface(DVec3, DVec3, f64),
-}
-
-/// The parts of bricks that a ray passes, front to back, with metres in each, and what is behind.
-struct Pass {
-    parts: Vec<(u32, f64)>,
-    behind: Behind,
-}
-
 /// Rays through one scene.
 pub(super) struct Sketch<'a> {
     pub(super) flame: &'a Flame,
@@ -68,6 +53,34 @@ pub(super) struct Sketch<'a> {
     absorption: Spectrum,
     scattering: [Spectrum; 2],
     radicals: Vec<Feature>,
+    /// Pictures that were asked for, with surfaces lit or dark.
+    pictures: Mutex<Vec<(Shows, Picture)>>,
+}
+
+/// X, Y, Z of each ray.
+type Picture = Arc<Vec<[f64; 3]>>;
+
+/// What a picture shows: matter, whether its soot is as cool as in its cooler places, whether surfaces are lit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Shows {
+    what: Of,
+    cooler: bool,
+    lit: bool,
+}
+
+/// Matter that pictures show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Of {
+    /// Soot and smoke alone.
+    Plain,
+    /// With radicals.
+    Radicals,
+    /// And what scattering takes away.
+    ScatteredAway,
+    /// Or brings, once.
+    ScatteredHere,
+    /// Or brings as often as it likes.
+    ScatteredOften,
 }
 
 impl<'a> Sketch<'a> {
@@ -87,7 +100,50 @@ impl<'a> Sketch<'a> {
                 .filter(|it| it.is_radical())
                 .cloned()
                 .collect(),
+            pictures: Mutex::default(),
         }
+    }
+
+    /// A picture of the bricks as they are.
+    pub(super) fn of(&self, what: Of, lit: bool) -> Picture {
+        let cooler = false;
+        self.made(Shows { what, cooler, lit })
+    }
+
+    /// A picture of the bricks whose soot is as cool as in their cooler places.
+    pub(super) fn of_cooler(&self, what: Of, lit: bool) -> Picture {
+        let cooler = true;
+        self.made(Shows { what, cooler, lit })
+    }
+
+    /// Made when it is asked for first: several bounds look at the same.
+    fn made(&self, shows: Shows) -> Picture {
+        let mut shows = shows;
+        if shows.what == Of::Radicals && self.radicals.is_empty() {
+            shows.what = Of::Plain;
+        }
+        shows.lit &= self.sees_surfaces();
+        let mut pictures = self.pictures.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, picture)) = pictures.iter().find(|(known, _)| *known == shows) {
+            return Arc::clone(picture);
+        }
+        let matter = |part: &PartMean| {
+            let matter = match shows.what {
+                Of::Plain => self.plain(part),
+                Of::Radicals => self.with_radicals(part),
+                Of::ScatteredAway => self.scattered_away(part),
+                Of::ScatteredHere => self.scattered_here(part),
+                Of::ScatteredOften => self.scattered_often(part),
+            };
+            if shows.cooler {
+                self.cooler(part, matter)
+            } else {
+                matter
+            }
+        };
+        let picture = Arc::new(self.picture(matter, shows.lit));
+        pictures.push((shows, Arc::clone(&picture)));
+        picture
     }
 
     /// Soot and smoke that glow and absorb.
@@ -100,7 +156,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// What radicals add to a brick.
-    pub(super) fn with_radicals(&self, brick: &PartMean) -> Matter {
+    fn with_radicals(&self, brick: &PartMean) -> Matter {
         let mut matter = self.plain(brick);
         for feature in &self.radicals {
             if let Source::Radical(emission) = feature.source {
@@ -112,7 +168,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// What scattering takes from light.
-    pub(super) fn scattered_away(&self, brick: &PartMean) -> Matter {
+    fn scattered_away(&self, brick: &PartMean) -> Matter {
         let mut matter = self.with_radicals(brick);
         let scattering = self.coefficient(brick);
         matter.extinction = std::array::from_fn(|i| matter.extinction[i] + scattering[i]);
@@ -120,7 +176,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// What it sends towards the eye at most, once.
-    pub(super) fn scattered_here(&self, brick: &PartMean) -> Matter {
+    fn scattered_here(&self, brick: &PartMean) -> Matter {
         let mut matter = self.with_radicals(brick);
         let (scattering, around) = (self.coefficient(brick), self.around(brick));
         matter.source = std::array::from_fn(|i| matter.source[i] + scattering[i] * around[i]);
@@ -128,7 +184,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// The same with all orders: a geometric series of what bricks send each other.
-    pub(super) fn scattered_often(&self, brick: &PartMean) -> Matter {
+    fn scattered_often(&self, brick: &PartMean) -> Matter {
         let mut matter = self.scattered_here(brick);
         let (scattering, around) = (self.coefficient(brick), self.around(brick));
         for i in 0..MEANS {
@@ -148,7 +204,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// The same matter where its own soot is as cool as in its cooler places.
-    pub(super) fn cooler(&self, part: &PartMean, matter: Matter) -> Matter {
+    fn cooler(&self, part: &PartMean, matter: Matter) -> Matter {
         let less = |i: usize| self.absorption[i] * (part.glow[i] - part.dim[i]).max(0.0);
         Matter {
             source: std::array::from_fn(|i| matter.source[i] - less(i)),
@@ -199,8 +255,9 @@ impl<'a> Sketch<'a> {
             }
             for i in 0..MEANS {
                 let depth = matter.extinction[i] * metres;
-                let taken = -(-depth).exp_m1();
-                let phi = if depth > 0.0 { taken / depth } else { 1.0 };
+                // In single precision, which bounds do not feel.
+                let taken = f64::from(-lanes::exp_m1(-depth as f32));
+                let phi = if depth > CLEAR { taken / depth } else { 1.0 };
                 light[i] += through[i] * matter.source[i] * metres * phi;
                 through[i] -= through[i] * taken;
             }
@@ -275,6 +332,8 @@ impl<'a> Sketch<'a> {
     }
 }
 
+/// Optical depth below which nothing is taken from light: single precision has no such numbers.
+const CLEAR: f64 = 1e-30;
 /// By how much more light may fall on a place than from the middles of lamps: part of each is nearer.
 const NEARER: f64 = 2.0;
 /// Most of what is scattered that is scattered again.
@@ -315,75 +374,4 @@ fn nearest(nm: f64) -> usize {
     (0..MEANS)
         .min_by(|a, b| apart(a).total_cmp(&apart(b)))
         .unwrap_or(0)
-}
-
-fn passes(scene: &Scene, size: [u32; 2]) -> Vec<Pass> {
-    let Ok(view) = scene.camera.view(size) else {
-        return Vec::new();
-    };
-    let medium = scene.flame.medium();
-    let backdrop = scene.stage.backdrop.as_ref();
-    let screen = backdrop.and_then(|it| it.facing(&scene.camera, size).ok());
-    let longer = f64::from(size[0].max(size[1]));
-    let counts = size.map(|side| {
-        ((f64::from(side) / longer * f64::from(RAYS)).ceil() as u32)
-            .min(side)
-            .max(1)
-    });
-    let pass = |i: u32| {
-        let cell = [i % counts[0], i / counts[0]];
-        let [x, y] = [0, 1].map(|axis| {
-            // From border to border: what is just in the picture is seen.
-            let along = f64::from(cell[axis]) / f64::from((counts[axis] - 1).max(1));
-            along * f64::from(size[axis])
-        });
-        let ray: Ray = view.ray(x, y);
-        let hit = scene.stage.hit(&ray, f64::INFINITY);
-        let limit = hit.map_or(f64::INFINITY, |hit| hit.distance_m);
-        let mut parts = Vec::new();
-        if let Some((local, [enter, exit])) = medium.enter(&ray)
-            && enter < limit
-        {
-            for_each_stored(medium, &local, [enter, exit.min(limit)], |stretch| {
-                in_parts(&local, stretch, &mut parts);
-            });
-        }
-        let behind = match (hit, &screen) {
-            (Some(hit), _) => {
-                let albedo = hit.colour.into_iter().fold(0.0, f64::max);
-                Behind::Surface(hit.point, hit.normal, albedo)
-            }
-            (None, Some(screen)) => Behind::Screen(screen.xyz(&ray)),
-            (None, None) => Behind::Dark,
-        };
-        Pass { parts, behind }
-    };
-    (0..counts[0] * counts[1])
-        .into_par_iter()
-        .map(pass)
-        .collect()
-}
-
-/// Cuts a ray's stretch in a brick where it goes from one part of it to another.
-fn in_parts(local: &Ray, stretch: Stretch, parts: &mut Vec<(u32, f64)>) {
-    let Stretch { slot, from, to } = stretch;
-    let middle = local.at(0.5 * (from + to));
-    let brick = (middle / BRICK as f64).floor() * BRICK as f64;
-    let mut cuts = [to; 4];
-    for axis in 0..3 {
-        let t = (brick[axis] + PART_EDGE as f64 - local.origin[axis]) / local.direction[axis];
-        if t > from && t < to {
-            cuts[axis] = t;
-        }
-    }
-    cuts.sort_by(f64::total_cmp);
-    let mut begin = from;
-    for cut in cuts {
-        if cut > begin {
-            let within = local.at(0.5 * (begin + cut)) - brick;
-            let half = within.cmpge(DVec3::splat(PART_EDGE as f64)).bitmask();
-            parts.push((slot * PARTS as u32 + half, cut - begin));
-            begin = cut;
-        }
-    }
 }
