@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::chord::{Chord, Runs};
+use super::chord::{Chord, Run, Runs, Stride};
 use super::eikonal::{Index, Path, Tolerance};
 use super::walk::for_each_stored;
 use crate::math::Ray;
@@ -57,12 +57,12 @@ pub(super) struct Bent {
     pub(super) hit: Option<Hit>,
 }
 
-/// Follows a ray of the world, whose direction is a unit vector, and cuts it into steps of `step_m` metres, above 0. A
+/// Follows a ray of the world, whose direction is a unit vector, and cuts it into steps. A
 /// step longer than the path is the path.
-pub(super) fn bend(around: Surroundings<'_>, ray: &Ray, step_m: f64) -> Bent {
+pub(super) fn bend(around: Surroundings<'_>, ray: &Ray, stride: Stride) -> Bent {
     let way = follow(around, ray);
     Bent {
-        chord: cut(around.medium, &way.knots, step_m),
+        chord: cut(around.medium, &way.knots, stride),
         exit: way.exit,
         hit: way.hit,
     }
@@ -262,8 +262,9 @@ fn first_stored(medium: &Medium, local: &Ray, out_m: f64) -> Option<f64> {
 }
 
 /// Cuts a path into steps; `None` if it meets no stored brick.
-fn cut(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Chord> {
+fn cut(medium: &Medium, knots: &[Knot], stride: Stride) -> Option<Chord> {
     let length_m = knots.last()?.arc_m;
+    let step_m = stride.whole_m();
     // A path that is whole steps long up to rounding has no extra sliver of a step.
     let steps = (length_m / step_m - 1e-9).ceil().max(1.0);
     let last_share = (length_m - (steps - 1.0) * step_m) / step_m;
@@ -271,21 +272,36 @@ fn cut(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Chord> {
     let mut runs = Runs::new();
     let mut segments = knots.windows(2);
     let mut segment = segments.next()?;
-    let mut middles = Vec::with_capacity(last as usize + 1);
-    for step in 0..=last {
-        let share = if step == last { last_share } else { 1.0 };
-        let middle_m = (f64::from(step) + 0.5 * share) * step_m;
-        while middle_m > segment[1].arc_m {
+    let mut at = |arc_m: f64| {
+        while arc_m > segment[1].arc_m {
             let Some(next) = segments.next() else { break };
             segment = next;
         }
-        let point = between([segment[0], segment[1]], middle_m);
-        let position = medium.lattice_from_world.transform_point3(point).to_array();
-        if stored(medium, position.map(|p| p as i32)).is_some_and(|slot| medium.shows(slot)) {
-            match runs.last_mut() {
-                Some(run) if run[1] == step => run[1] = step + 1,
-                _ => runs.push([step, step + 1]),
-            }
+        let point = between([segment[0], segment[1]], arc_m);
+        medium.lattice_from_world.transform_point3(point).to_array()
+    };
+    let known = medium.cuts();
+    let cuts_at = |position: [f64; 3]| {
+        stored(medium, position.map(|p| p as i32))
+            .map_or(0, |slot| stride.cuts(medium, known, slot))
+    };
+    let mut middles = Vec::with_capacity(last as usize + 1);
+    let mut begin_cuts = cuts_at(at(0.0));
+    for step in 0..=last {
+        let share = if step == last { last_share } else { 1.0 };
+        let place = |part: f64| (f64::from(step) + part * share) * step_m;
+        let position = at(place(0.5));
+        let end_cuts = cuts_at(at(place(1.0)));
+        let cuts = begin_cuts.max(cuts_at(position)).max(end_cuts);
+        begin_cuts = end_cuts;
+        match runs.last_mut() {
+            Some(run) if run.end == step && run.cuts == cuts => run.end = step + 1,
+            _ if cuts > 0 => runs.push(Run {
+                first: step,
+                end: step + 1,
+                cuts,
+            }),
+            _ => {}
         }
         middles.push(position);
     }

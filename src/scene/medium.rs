@@ -26,6 +26,10 @@ pub const BRICK_SAMPLES: usize = SAMPLES * SAMPLES * SAMPLES;
 /// Table entry of a brick without soot.
 pub const NO_BRICK: u32 = u32::MAX;
 
+/// Into how many samples the march cuts a whole step for them to be as long as was asked for: where a fire is smooth, half
+/// as many do.
+pub(crate) const NOMINAL_CUTS: u32 = 2;
+
 /// Soot volume fraction (dimensionless) and temperature (K, at least 1) of one sample.
 pub type Sample = [f32; 2];
 
@@ -58,6 +62,8 @@ pub struct Medium {
     pub(crate) shown: u32,
     /// Worked out when they are asked for first.
     pub(crate) means: OnceLock<Means>,
+    /// The same.
+    pub(crate) cuts: OnceLock<Vec<u8>>,
 }
 
 /// The greatest of what a medium holds.

@@ -72,15 +72,17 @@ impl Dense {
         let far = 1e3;
         // The box by rays through its middle.
         let middle = scene.camera.target;
-        let size = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
-            let ray = Ray {
-                origin: middle - far * axis,
-                direction: axis,
-            };
-            medium.enter(&ray).map_or(0, |(local, [_, exit])| {
-                local.at(exit).dot(axis).ceil() as usize + 2
+        let end = [DVec3::X, DVec3::Y, DVec3::Z]
+            .into_iter()
+            .flat_map(|axis| [axis, -axis])
+            .filter_map(|direction| {
+                let origin = middle - far * direction;
+                let (local, [_, exit]) = medium.enter(&Ray { origin, direction })?;
+                Some(local.at(exit))
             })
-        });
+            .fold(DVec3::ZERO, DVec3::max);
+        // The cell at the end needs one sample more.
+        let size = end.to_array().map(|end| end.ceil() as usize + 2);
         let samples = (0..size[0] * size[1] * size[2]).map(|i| {
             let place = [i % size[0], i / size[0] % size[1], i / (size[0] * size[1])];
             let [soot, kelvin] = medium.sample(DVec3::from(place.map(|at| at as f64)));

@@ -3,9 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::render::chord::Chord;
+use crate::render::chord::{Chord, Run, Stride};
 use crate::scene::Air;
 use crate::scene::flame::{Bending, Flame};
+use crate::scene::medium::NOMINAL_CUTS;
 use crate::scene::refractivity::tests::{Gas, VOXEL_M, ball, clear};
 use crate::volume::UpAxis;
 
@@ -25,7 +26,7 @@ fn through(flame: &Flame, ray: &Ray) -> Bent {
             stage: &Stage::default(),
         },
         ray,
-        0.5 * VOXEL_M,
+        stride(0.5 * VOXEL_M),
     )
 }
 
@@ -39,6 +40,14 @@ fn by_quadrature(gas: &Gas, beside: f64) -> f64 {
         sum += (n(r + 1e-6) - n(r - 1e-6)) / 2e-6 * beside / r * step;
     }
     sum
+}
+
+/// Steps of which those that are not cut are so long, m.
+fn stride(whole_m: f64) -> Stride {
+    Stride {
+        nominal_m: whole_m / f64::from(NOMINAL_CUTS),
+        is_bounded: false,
+    }
 }
 
 #[test]
@@ -154,8 +163,15 @@ fn a_straight_path_is_cut_as_the_march_cuts_a_ray() {
         stage: &Stage::default(),
     };
     for step_m in [0.003, 0.01, 0.037, 5.0] {
-        let bent = bend(around, &ray, step_m).chord.unwrap();
-        let chord = Chord::new(flame.medium(), &ray, step_m, f64::INFINITY).unwrap();
+        let bent = bend(around, &ray, stride(step_m)).chord.unwrap();
+        let chord = Chord::new(
+            flame.medium(),
+            &ray,
+            stride(step_m),
+            f64::INFINITY,
+            [0.0, f64::INFINITY],
+        )
+        .unwrap();
         assert_eq!(bent.last, chord.last, "{step_m}");
         assert!((bent.last_share - chord.last_share).abs() < 1e-5);
         assert_eq!(bent.middles.len(), bent.last as usize + 1);
@@ -172,8 +188,8 @@ fn a_straight_path_is_cut_as_the_march_cuts_a_ray() {
                 assert!((found - expected).abs() < 1e-5, "{step_m}: step {step}");
             }
         }
-        for [first, end] in &bent.runs {
-            let holds = |run: &[u32; 2]| run[0] <= *first && *end <= run[1];
+        for Run { first, end, .. } in &bent.runs {
+            let holds = |run: &Run| run.first <= *first && *end <= run.end;
             assert!(
                 chord.runs.iter().any(holds),
                 "{:?}, {:?}",
@@ -206,7 +222,7 @@ fn steps_lie_on_the_path_and_those_with_gas_are_in_runs() {
     };
     let way = follow(around, &ray);
     for step_m in [0.002, 0.013, 0.2] {
-        let chord = bend(around, &ray, step_m).chord.unwrap();
+        let chord = bend(around, &ray, stride(step_m)).chord.unwrap();
         let world = medium.lattice_from_world.inverse();
         let points: Vec<DVec3> = chord
             .middles
@@ -217,7 +233,7 @@ fn steps_lie_on_the_path_and_those_with_gas_are_in_runs() {
             let in_run = chord
                 .runs
                 .iter()
-                .any(|run| (run[0] as usize..run[1] as usize).contains(&step));
+                .any(|run| (run.first as usize..run.end as usize).contains(&step));
             let soot = medium.sample((*position).into())[0];
             assert!(in_run || soot == 0.0, "step {step} is skipped");
         }
