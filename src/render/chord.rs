@@ -1,11 +1,10 @@
 //! A ray prepared for the march: its steps through the domain, which of them may meet soot, and how finely these are cut.
 //!
-//! Steps are twice as long as was asked for where the fire is smooth, and cut into shorter ones where its light changes from
-//! voxel to voxel ([`Medium::cuts`]): thin hot sheets are what a picture's error comes from.
+//! Steps are cut into shorter ones where the fire's light changes from voxel to voxel ([`Medium::cuts`]): thin hot sheets are what a picture's error comes from.
 
 use super::walk::for_each_brick;
 use crate::math::Ray;
-use crate::scene::medium::{Medium, NOMINAL_CUTS};
+use crate::scene::medium::Medium;
 
 /// Steps of one ray that lie in bricks with soot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,30 +26,13 @@ const SLACK: f64 = 1e-4;
 /// Runs for which there is room at first: few rays go in and out of the fire more often.
 const RUNS: usize = 16;
 
-/// How long the steps of a march are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stride {
-    /// Length that was asked for, m.
-    pub(super) nominal_m: f64,
-    /// Whether more than soot's own light is seen: then no step is longer than that.
-    pub(super) is_bounded: bool,
-}
-
-impl Stride {
-    /// Length of a step that is not cut, m.
-    pub(super) fn whole_m(&self) -> f64 {
-        self.nominal_m * f64::from(NOMINAL_CUTS)
-    }
-
-    /// Into how many samples a step in a brick is cut; 0 where nothing shows.
-    #[inline(always)]
-    pub(super) fn cuts(&self, medium: &Medium, cuts: &[u8], slot: u32) -> u32 {
-        if !medium.shows(slot) {
-            return 0;
-        }
-        let least = if self.is_bounded { NOMINAL_CUTS } else { 1 };
-        cuts.get(slot as usize)
-            .map_or(least, |&cuts| u32::from(cuts).max(least))
+/// Into how many samples a step in a brick is cut, of what is known of all bricks; 0 where nothing shows.
+#[inline(always)]
+pub(super) fn cuts_of(medium: &Medium, cuts: &[u8], slot: u32) -> u32 {
+    if medium.shows(slot) {
+        cuts.get(slot as usize).map_or(1, |&cuts| u32::from(cuts))
+    } else {
+        0
     }
 }
 
@@ -77,7 +59,7 @@ impl Chord {
     pub(super) fn new(
         medium: &Medium,
         ray: &Ray,
-        stride: Stride,
+        step_m: f64,
         limit_m: f64,
         [near_m, far_m]: [f64; 2],
     ) -> Option<Self> {
@@ -87,7 +69,6 @@ impl Chord {
         if length <= 0.0 {
             return None;
         }
-        let step_m = stride.whole_m();
         // A chord that is whole steps long up to rounding has no extra sliver of a step.
         let steps = (length / step_m - 1e-9).ceil().max(1.0);
         let last_share = (length - (steps - 1.0) * step_m) / step_m;
@@ -101,7 +82,7 @@ impl Chord {
             // Neighbours that are cut alike are one stretch.
             let (mut current, mut begin, mut end) = (0, 0.0, 0.0);
             for_each_brick(medium, &local, range, |stretch| {
-                let cuts = stride.cuts(medium, cuts, stretch.slot);
+                let cuts = cuts_of(medium, cuts, stretch.slot);
                 if cuts != current {
                     cutter.add(
                         [begin, stretch.from].map(|at| (at - enter) * per_m),
@@ -244,7 +225,6 @@ mod tests {
             ],
             whole in any::<bool>(),
             step_m in 0.1..9.0_f64,
-            is_bounded in any::<bool>(),
             interpolation in prop::sample::select(Interpolation::ALL.to_vec()),
         ) {
             let medium = sparse(seed, interpolation);
@@ -253,10 +233,8 @@ mod tests {
             let origin = if whole { origin.round() } else { origin };
             let Some(ray) = Ray::new(origin, direction.into()) else { return Ok(()) };
             let Some((local, [enter, exit])) = medium.enter(&ray) else { return Ok(()) };
-            let stride = Stride { nominal_m: step_m, is_bounded };
-            let chord = Chord::new(&medium, &ray, stride, f64::INFINITY, [0.0, f64::INFINITY]);
+            let chord = Chord::new(&medium, &ray, step_m, f64::INFINITY, [0.0, f64::INFINITY]);
             let runs = chord.map_or(Runs::new(), |chord| chord.runs);
-            let step_m = stride.whole_m();
             let steps = ((exit - enter) / step_m - 1e-9).ceil().max(1.0) as u32;
             for step in 0..steps {
                 let begin = enter + f64::from(step) * step_m;
@@ -268,7 +246,7 @@ mod tests {
                         prop_assert!(run.is_some(), "step {step} of {steps} is skipped: {runs:?}");
                     }
                     if let Some(slot) = stored(&medium, at.to_array().map(|at| at as i32)) {
-                        let cuts = stride.cuts(&medium, medium.cuts(), slot);
+                        let cuts = cuts_of(&medium, medium.cuts(), slot);
                         let own = run.map_or(0, |run| run.cuts);
                         prop_assert!(own >= cuts, "step {step} is cut into {own}, not {cuts}");
                     }

@@ -11,6 +11,11 @@ pub(super) type Found = [f32; 4];
 /// How much later than the lowest corner of a cell its highest one is stored.
 const FAR_CORNER: usize = (SAMPLES + 1) * SAMPLES + 1;
 
+/// Adding 1.5 · 2⁵² rounds an f64 below 2³¹ in magnitude to the nearest integer, left in the low mantissa bits: lanes side by
+/// side, which a conversion is not. At half a voxel below a whole number it may be either, so that a place on a voxel may
+/// belong to the cell before, at its end: it is the same sample, and a brick stores the first layer of its neighbour.
+const ROUNDER: f64 = 6755399441055744.0;
+
 /// What is found where no brick is: clear air.
 const CLEAR: Found = [0.0, 300.0, 0.0, 0.0];
 
@@ -37,10 +42,11 @@ pub(super) fn lookup_lanes<const GAS: bool, const SCATTER: bool>(
             let mut cell = [[0_u32; LANES]; 3];
             for axis in 0..3 {
                 for lane in 0..LANES {
-                    let voxel = position[axis][lane] as i32;
-                    fraction[axis][lane] = (position[axis][lane] - f64::from(voxel)) as f32;
+                    let at = position[axis][lane];
+                    let shifted = at - 0.5 + ROUNDER;
+                    fraction[axis][lane] = (at - (shifted - ROUNDER)) as f32;
                     // Below the lattice the number wraps to a brick that no table has.
-                    cell[axis][lane] = voxel as u32;
+                    cell[axis][lane] = shifted.to_bits() as u32;
                 }
             }
             let size = medium.bricks.to_array();

@@ -23,7 +23,7 @@ use crate::math::lanes::{LANES, Lanes};
 use crate::scene::Scene;
 use crate::scene::camera::{CameraError, View};
 
-use super::chord::{Chord, Stride};
+use super::chord::Chord;
 use super::cover::Cover;
 use super::fields::Fields;
 use super::film::Pixel;
@@ -98,12 +98,7 @@ impl<'a> Marcher<'a> {
                     .map(|backdrop| backdrop.facing(&scene.camera, size))
                     .transpose()?,
                 bent: fields.bent.as_deref(),
-                stride: Stride {
-                    nominal_m: step_voxels * medium.voxel_size_m(),
-                    is_bounded: !plan.tables.glow.is_empty()
-                        || plan.tables.scatters
-                        || scene.stage.shows_behind(),
-                },
+                step_m: step_voxels * medium.voxel_size_m(),
             },
             cover: None,
         })
@@ -216,7 +211,7 @@ impl<'a> Marcher<'a> {
     /// for begins and ends, m from where it enters the medium's box. Between them there is nothing.
     pub fn samples_of(&self, point: [f64; 2]) -> Vec<[f64; 2]> {
         let way = self.ways.of(&self.view.ray(point[0], point[1]), EVERYWHERE);
-        let whole_m = self.ways.stride.whole_m();
+        let whole_m = self.ways.step_m;
         let samples = way.chord.iter().flat_map(Chord::samples);
         samples.map(|part| part.map(|at| at * whole_m)).collect()
     }
@@ -270,7 +265,7 @@ impl<'a> Marcher<'a> {
             medium: self.ways.medium,
             tables: self.tables,
             scatter: self.fields.scatter.as_deref(),
-            step_m: self.ways.stride.whole_m() as f32,
+            step_m: self.ways.step_m as f32,
             packet: Packet::new(chords),
         };
         Some(march.run())

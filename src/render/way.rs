@@ -1,7 +1,7 @@
 //! A ray's way: through the fire, and to what it meets behind.
 
 use super::bend::{Surroundings, bend, follow};
-use super::chord::{Chord, Stride};
+use super::chord::Chord;
 use super::fields::Bent;
 use crate::math::Ray;
 use crate::scene::Medium;
@@ -31,7 +31,7 @@ pub(super) struct Ways<'a> {
     pub(super) stage: &'a Stage,
     pub(super) screen: Option<Screen>,
     pub(super) bent: Option<&'a Bent>,
-    pub(super) stride: Stride,
+    pub(super) step_m: f64,
 }
 
 impl Ways<'_> {
@@ -53,7 +53,7 @@ impl Ways<'_> {
         let limit_m = hit.map_or(f64::INFINITY, |hit| hit.distance_m);
         Way {
             chord: range
-                .and_then(|range| Chord::new(self.medium, ray, self.stride, limit_m, range)),
+                .and_then(|range| Chord::new(self.medium, ray, self.step_m, limit_m, range)),
             end: match (hit, &self.screen) {
                 (Some(hit), _) => End::Surface(hit),
                 (None, Some(screen)) => End::Screen(screen.xyz(ray)),
@@ -68,7 +68,7 @@ impl Ways<'_> {
             gas,
             stage: self.stage,
         };
-        let main = bend(around(&bent.main), ray, self.stride);
+        let main = bend(around(&bent.main), ray, self.step_m);
         let end = match (main.hit, &self.screen) {
             (Some(hit), _) => End::Surface(hit),
             (None, Some(screen)) => End::Screen(match &bent.others {

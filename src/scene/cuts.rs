@@ -8,14 +8,15 @@
 //! ```
 //!
 //! For j″ of a brick stands the greatest second difference between its samples along any axis. What it is measured by is
-//! the root mean square of all second differences: a brick with as much gets steps of the nominal length, most of a fire
-//! gets longer ones, and its thin hot sheets, where nearly all error comes from, shorter ones.
+//! the root mean square of all second differences: most of a fire keeps the step that was asked for, and its thin hot sheets,
+//! where nearly all error comes from, get shorter ones. None gets a longer one, so that whatever else is seen, of gas or of
+//! what lies behind, is taken as finely as was asked for.
 //!
 //! No law of soot is in it: it is worked out once for each packed medium.
 
 use rayon::prelude::*;
 
-use super::medium::{BRICK_SAMPLES, Medium, NOMINAL_CUTS, SAMPLES, Sample};
+use super::medium::{BRICK_SAMPLES, Medium, SAMPLES, Sample};
 use crate::math::lanes;
 use crate::physics::blackbody::SECOND_RADIATION_CONSTANT_NM_K;
 
@@ -23,12 +24,11 @@ use crate::physics::blackbody::SECOND_RADIATION_CONSTANT_NM_K;
 const LAMBDA_NM: f64 = 610.0;
 /// Exponent of the rule above.
 const EXPONENT: f64 = 0.4;
-/// Most samples of a whole step: an eighth of the nominal length.
-const MOST_CUTS: f64 = 8.0 * NOMINAL_CUTS as f64;
+/// Most samples of a step.
+const MOST_CUTS: f64 = 16.0;
 
 impl Medium {
-    /// Into how many samples a whole step, [`NOMINAL_CUTS`] times as long as was asked for, is cut in each stored brick;
-    /// worked out when it is asked for first.
+    /// Into how many samples a step of the march is cut in each stored brick; worked out when it is asked for first.
     pub(crate) fn cuts(&self) -> &[u8] {
         self.cuts.get_or_init(|| of_bricks(&self.samples))
     }
@@ -42,10 +42,10 @@ fn of_bricks(samples: &[Sample]) -> Vec<u8> {
     let usual = mean.sqrt();
     let cuts = |[greatest, _]: &[f64; 2]| {
         if usual > 0.0 {
-            let cuts = f64::from(NOMINAL_CUTS) * (greatest / usual).powf(EXPONENT);
+            let cuts = (greatest / usual).powf(EXPONENT);
             cuts.round().clamp(1.0, MOST_CUTS) as u8
         } else {
-            NOMINAL_CUTS as u8
+            1
         }
     };
     rough.iter().map(cuts).collect()
@@ -98,16 +98,16 @@ mod tests {
             .collect();
         let cuts = of_bricks(&all);
         assert_eq!(cuts[0], 1);
-        // (2 / rms of (1, −2, 1) over a third of 7 places in three bricks of four)^0.4 = 1.9.
+        // (2 / rms of (1, −2, 1) over a third of 7 places in three bricks of four)^0.4 is about 2.
         assert!(
-            cuts[1] >= 3 && cuts[1] == cuts[2] && cuts[2] == cuts[3],
+            cuts[1] >= 2 && cuts[1] == cuts[2] && cuts[2] == cuts[3],
             "{cuts:?}"
         );
     }
 
     #[test]
     fn an_even_fire_keeps_to_the_nominal_step() {
-        assert_eq!(of_bricks(&brick(|_| 1e-6)), [NOMINAL_CUTS as u8]);
+        assert_eq!(of_bricks(&brick(|_| 1e-6)), [1]);
         assert!(of_bricks(&[]).is_empty());
     }
 }

@@ -26,10 +26,6 @@ pub const BRICK_SAMPLES: usize = SAMPLES * SAMPLES * SAMPLES;
 /// Table entry of a brick without soot.
 pub const NO_BRICK: u32 = u32::MAX;
 
-/// Into how many samples the march cuts a whole step for them to be as long as was asked for: where a fire is smooth, half
-/// as many do.
-pub(crate) const NOMINAL_CUTS: u32 = 2;
-
 /// Soot volume fraction (dimensionless) and temperature (K, at least 1) of one sample.
 pub type Sample = [f32; 2];
 

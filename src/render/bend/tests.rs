@@ -3,10 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::render::chord::{Chord, Run, Stride};
+use crate::render::chord::{Chord, Run};
 use crate::scene::Air;
 use crate::scene::flame::{Bending, Flame};
-use crate::scene::medium::NOMINAL_CUTS;
 use crate::scene::refractivity::tests::{Gas, VOXEL_M, ball, clear};
 use crate::volume::UpAxis;
 
@@ -26,7 +25,7 @@ fn through(flame: &Flame, ray: &Ray) -> Bent {
             stage: &Stage::default(),
         },
         ray,
-        stride(0.5 * VOXEL_M),
+        0.5 * VOXEL_M,
     )
 }
 
@@ -40,14 +39,6 @@ fn by_quadrature(gas: &Gas, beside: f64) -> f64 {
         sum += (n(r + 1e-6) - n(r - 1e-6)) / 2e-6 * beside / r * step;
     }
     sum
-}
-
-/// Steps of which those that are not cut are so long, m.
-fn stride(whole_m: f64) -> Stride {
-    Stride {
-        nominal_m: whole_m / f64::from(NOMINAL_CUTS),
-        is_bounded: false,
-    }
 }
 
 #[test]
@@ -163,11 +154,11 @@ fn a_straight_path_is_cut_as_the_march_cuts_a_ray() {
         stage: &Stage::default(),
     };
     for step_m in [0.003, 0.01, 0.037, 5.0] {
-        let bent = bend(around, &ray, stride(step_m)).chord.unwrap();
+        let bent = bend(around, &ray, step_m).chord.unwrap();
         let chord = Chord::new(
             flame.medium(),
             &ray,
-            stride(step_m),
+            step_m,
             f64::INFINITY,
             [0.0, f64::INFINITY],
         )
@@ -222,7 +213,7 @@ fn steps_lie_on_the_path_and_those_with_gas_are_in_runs() {
     };
     let way = follow(around, &ray);
     for step_m in [0.002, 0.013, 0.2] {
-        let chord = bend(around, &ray, stride(step_m)).chord.unwrap();
+        let chord = bend(around, &ray, step_m).chord.unwrap();
         let world = medium.lattice_from_world.inverse();
         let points: Vec<DVec3> = chord
             .middles
