@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::chord::{Chord, Run, Runs, cuts_of};
+use super::chord::{Chord, Run, Runs, cuts_of, known_cuts};
 use super::eikonal::{Index, Path, Tolerance};
 use super::walk::for_each_stored;
 use crate::math::Ray;
@@ -279,7 +279,10 @@ fn cut(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Chord> {
         let point = between([segment[0], segment[1]], arc_m);
         medium.lattice_from_world.transform_point3(point).to_array()
     };
-    let known = medium.cuts();
+    let along = medium
+        .lattice_from_world
+        .transform_vector3(knots[0].at.direction);
+    let known = known_cuts(medium, along * step_m);
     let cuts_at = |position: [f64; 3]| {
         stored(medium, position.map(|p| p as i32)).map_or(0, |slot| cuts_of(medium, known, slot))
     };

@@ -2,9 +2,11 @@
 //!
 //! Steps are cut into shorter ones where the fire's light changes from voxel to voxel ([`Medium::cuts`]): thin hot sheets are what a picture's error comes from.
 
+use glam::DVec3;
+
 use super::walk::for_each_brick;
 use crate::math::Ray;
-use crate::scene::medium::Medium;
+use crate::scene::medium::{BRICK, Medium};
 
 /// Steps of one ray that lie in bricks with soot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +27,16 @@ const SLACK: f64 = 1e-4;
 
 /// Runs for which there is room at first: few rays go in and out of the fire more often.
 const RUNS: usize = 16;
+
+/// What is known of how finely bricks are to be looked at, for steps of which each is such a vector of the lattice. A step as
+/// long as a brick crosses several and is ruled by none: such steps stay even.
+pub(super) fn known_cuts(medium: &Medium, step: DVec3) -> &[u8] {
+    if step.abs().max_element() < BRICK as f64 {
+        medium.cuts()
+    } else {
+        &[]
+    }
+}
 
 /// Into how many samples a step in a brick is cut, of what is known of all bricks; 0 where nothing shows.
 #[inline(always)]
@@ -78,7 +90,7 @@ impl Chord {
         };
         let range = [enter.max(near_m), exit.min(far_m)];
         if range[0] <= range[1] {
-            let (per_m, cuts) = (1.0 / step_m, medium.cuts());
+            let (per_m, cuts) = (1.0 / step_m, known_cuts(medium, local.direction * step_m));
             // Neighbours that are cut alike are one stretch.
             let (mut current, mut begin, mut end) = (0, 0.0, 0.0);
             for_each_brick(medium, &local, range, |stretch| {
@@ -203,7 +215,6 @@ fn ceil(x: f64) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
     use proptest::prelude::*;
 
     use super::super::walk::tests::sparse;
@@ -246,7 +257,7 @@ mod tests {
                         prop_assert!(run.is_some(), "step {step} of {steps} is skipped: {runs:?}");
                     }
                     if let Some(slot) = stored(&medium, at.to_array().map(|at| at as i32)) {
-                        let cuts = cuts_of(&medium, medium.cuts(), slot);
+                        let cuts = cuts_of(&medium, known_cuts(&medium, local.direction * step_m), slot);
                         let own = run.map_or(0, |run| run.cuts);
                         prop_assert!(own >= cuts, "step {step} is cut into {own}, not {cuts}");
                     }
