@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::chord::{Chord, Runs};
+use super::chord::{Chord, Run, Runs, cuts_of, known_cuts};
 use super::eikonal::{Index, Path, Tolerance};
 use super::walk::for_each_stored;
 use crate::math::Ray;
@@ -271,21 +271,38 @@ fn cut(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Chord> {
     let mut runs = Runs::new();
     let mut segments = knots.windows(2);
     let mut segment = segments.next()?;
-    let mut middles = Vec::with_capacity(last as usize + 1);
-    for step in 0..=last {
-        let share = if step == last { last_share } else { 1.0 };
-        let middle_m = (f64::from(step) + 0.5 * share) * step_m;
-        while middle_m > segment[1].arc_m {
+    let mut at = |arc_m: f64| {
+        while arc_m > segment[1].arc_m {
             let Some(next) = segments.next() else { break };
             segment = next;
         }
-        let point = between([segment[0], segment[1]], middle_m);
-        let position = medium.lattice_from_world.transform_point3(point).to_array();
-        if stored(medium, position.map(|p| p as i32)).is_some_and(|slot| medium.shows(slot)) {
-            match runs.last_mut() {
-                Some(run) if run[1] == step => run[1] = step + 1,
-                _ => runs.push([step, step + 1]),
-            }
+        let point = between([segment[0], segment[1]], arc_m);
+        medium.lattice_from_world.transform_point3(point).to_array()
+    };
+    let along = medium
+        .lattice_from_world
+        .transform_vector3(knots[0].at.direction);
+    let known = known_cuts(medium, along * step_m);
+    let cuts_at = |position: [f64; 3]| {
+        stored(medium, position.map(|p| p as i32)).map_or(0, |slot| cuts_of(medium, known, slot))
+    };
+    let mut middles = Vec::with_capacity(last as usize + 1);
+    let mut begin_cuts = cuts_at(at(0.0));
+    for step in 0..=last {
+        let share = if step == last { last_share } else { 1.0 };
+        let place = |part: f64| (f64::from(step) + part * share) * step_m;
+        let position = at(place(0.5));
+        let end_cuts = cuts_at(at(place(1.0)));
+        let cuts = begin_cuts.max(cuts_at(position)).max(end_cuts);
+        begin_cuts = end_cuts;
+        match runs.last_mut() {
+            Some(run) if run.end == step && run.cuts == cuts => run.end = step + 1,
+            _ if cuts > 0 => runs.push(Run {
+                first: step,
+                end: step + 1,
+                cuts,
+            }),
+            _ => {}
         }
         middles.push(position);
     }

@@ -131,7 +131,9 @@ fn march(
     let all = settings.pixels() as f64 * f64::from(settings.samples_per_pixel);
     let mut samples = Vec::with_capacity(pictures.len());
     for (plan, fields) in pictures {
-        let marcher = Marcher::with_fields(scene, plan, fields, settings.step_voxels).ok()?;
+        let marcher = Marcher::with_fields(scene, plan, fields, settings.step_voxels)
+            .ok()?
+            .for_a_picture();
         let higher = (plan.orders > 1).then(|| HigherOrders::new(scene, &plan.tables, plan.orders));
         samples.push((marcher, higher));
     }

@@ -8,12 +8,11 @@
 //! The loop is compiled for each of what a scene may call for: gas that glows beside soot (`GAS`), light scattered by it
 //! (`SCATTER`), rays that are bent (`BEND`). What is off is not in the loop.
 
-use super::chord::Chord;
 use super::glow::{GlowLight, MAX_FEATURES, Step};
-use super::lookup::lookup;
 use super::own_light::own_light;
 use super::scatter::InScatter;
-use super::tables::{MAX_NODES, Node, Tables};
+use super::spans::{Packet, Walk};
+use super::tables::{Node, Tables};
 use crate::math::lanes::{self, Kernel, LANES, Lanes};
 use crate::scene::medium::Medium;
 
@@ -22,8 +21,8 @@ const FLUSH: u32 = 16;
 
 /// What a packet of rays brings home.
 pub(super) struct Light {
-    /// Spectral radiance at each node, W m⁻² sr⁻¹ nm⁻¹.
-    pub(super) radiance: [Lanes; MAX_NODES],
+    /// Spectral radiance at each node, W m⁻² sr⁻¹ nm⁻¹; as many as are carried, for of those that might be most are not.
+    pub(super) radiance: Vec<Lanes>,
     /// Radiance of each feature of the gas, W m⁻² sr⁻¹.
     pub(super) glow: [Lanes; MAX_FEATURES],
     /// ∫ f_v ds of the medium, m.
@@ -35,9 +34,9 @@ pub(super) struct Light {
 
 impl Light {
     /// Nothing, through clear air.
-    pub(super) fn none() -> Self {
+    pub(super) fn none(nodes: usize) -> Self {
         Self {
-            radiance: [[0.0; LANES]; MAX_NODES],
+            radiance: vec![[0.0; LANES]; nodes],
             glow: [[0.0; LANES]; MAX_FEATURES],
             column_m: [0.0; LANES],
             smoke_m: [0.0; LANES],
@@ -51,6 +50,7 @@ pub(super) struct March<'a> {
     pub(super) medium: &'a Medium,
     pub(super) tables: &'a Tables,
     pub(super) scatter: Option<&'a InScatter>,
+    /// Length of a step that is not cut, m.
     pub(super) step_m: f32,
     pub(super) packet: Packet<'a>,
 }
@@ -72,47 +72,8 @@ impl March<'_> {
     }
 }
 
-/// Rays side by side, with where each is on its way.
-pub(super) struct Packet<'a> {
-    start: [[f64; 3]; LANES],
-    delta: [[f64; 3]; LANES],
-    last: [u32; LANES],
-    last_share: Lanes,
-    runs: [&'a [[u32; 2]]; LANES],
-    middles: [&'a [[f64; 3]]; LANES],
-    is_bent: bool,
-}
-
-impl<'a> Packet<'a> {
-    pub(super) fn new(chords: [Option<&'a Chord>; LANES]) -> Self {
-        let mut packet = Self {
-            start: [[0.0; 3]; LANES],
-            delta: [[0.0; 3]; LANES],
-            last: [0; LANES],
-            last_share: [1.0; LANES],
-            runs: [&[]; LANES],
-            middles: [&[]; LANES],
-            is_bent: false,
-        };
-        for (lane, chord) in chords.into_iter().enumerate() {
-            let Some(chord) = chord else { continue };
-            packet.start[lane] = chord.start;
-            packet.delta[lane] = chord.delta;
-            packet.last[lane] = chord.last;
-            packet.last_share[lane] = chord.last_share;
-            packet.runs[lane] = &chord.runs;
-            packet.middles[lane] = &chord.middles;
-            packet.is_bent |= !chord.middles.is_empty();
-        }
-        packet
-    }
-}
-
 /// The loop, compiled for what is in it.
 struct Loop<'a, const GAS: bool, const SCATTER: bool, const BEND: bool>(March<'a>);
-
-/// Light from all sides at the samples of a packet.
-type Around = [Lanes; MAX_NODES + MAX_FEATURES];
 
 impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
     for Loop<'_, GAS, SCATTER, BEND>
@@ -125,25 +86,26 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
         let (nodes, glow_table) = (&march.tables.nodes[..], &march.tables.glow);
         let opaque = march.tables.opaque_column_m;
         let reach_m = march.scatter.map_or(0.0, InScatter::reach_m);
-        let mut light = Light::none();
+        let mut light = Light::none(nodes.len());
         let mut glow = GlowLight::new();
-        let mut around: Around = [[0.0; LANES]; MAX_NODES + MAX_FEATURES];
-        let mut transmittance = [[1.0_f32; LANES]; MAX_NODES];
-        let mut block_radiance = [[0.0_f32; LANES]; MAX_NODES];
+        let mut around = vec![[0.0; LANES]; if SCATTER { march.tables.channels() } else { 0 }];
+        let mut transmittance = vec![[1.0_f32; LANES]; nodes.len()];
+        let mut block_radiance = vec![[0.0_f32; LANES]; nodes.len()];
         let mut block_column = [0.0_f32; LANES];
         let mut block_smoke = [0.0_f32; LANES];
-        let mut walk = Walk::new(&march.packet);
+        let mut walk = Walk::new(&march.packet, march.step_m);
         let mut since_flush = 0;
         loop {
-            let (step, active) = walk.next::<GAS, SCATTER, BEND>(&march, &mut around);
+            let (step, active) =
+                walk.next::<GAS, SCATTER, BEND>(march.medium, march.scatter, &mut around);
             if active == 0 {
                 break;
             }
             light.samples += active;
 
             // Each wavelength emits, is absorbed and is scattered over the step.
-            for (n, node) in nodes.iter().enumerate() {
-                let (transmittance, radiance) = (&mut transmittance[n], &mut block_radiance[n]);
+            let carried = transmittance.iter_mut().zip(&mut block_radiance);
+            for (n, (node, (transmittance, radiance))) in nodes.iter().zip(carried).enumerate() {
                 if SCATTER {
                     scattering_step(node, &step, reach_m, &around[n], transmittance, radiance);
                 } else {
@@ -159,7 +121,8 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
                 }
             }
             if GAS {
-                glow.step::<SCATTER>(glow_table, &step, reach_m, &around[nodes.len()..]);
+                let of_features = if SCATTER { &around[nodes.len()..] } else { &[] };
+                glow.step::<SCATTER>(glow_table, &step, reach_m, of_features);
             }
 
             since_flush += 1;
@@ -167,7 +130,9 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
                 since_flush = 0;
                 for (lane, block) in block_column.iter_mut().enumerate() {
                     light.column_m[lane] += std::mem::take(block);
-                    walk.done[lane] |= light.column_m[lane] > opaque;
+                    if light.column_m[lane] > opaque {
+                        walk.stop(lane);
+                    }
                 }
                 if SCATTER {
                     for (total, block) in light.smoke_m.iter_mut().zip(&mut block_smoke) {
@@ -245,91 +210,5 @@ fn scattering_step(
         let source = emitted + scattering * (around[lane] + own).max(0.0);
         radiance[lane] += transmittance[lane] * source * phi;
         transmittance[lane] -= transmittance[lane] * taken;
-    }
-}
-
-/// Where each ray of a packet is on its way.
-struct Walk {
-    /// Which of its runs, and which step.
-    run: [usize; LANES],
-    step: [u32; LANES],
-    done: [bool; LANES],
-}
-
-impl Walk {
-    #[inline(always)]
-    fn new(packet: &Packet<'_>) -> Self {
-        Self {
-            run: [0; LANES],
-            step: std::array::from_fn(|lane| packet.runs[lane].first().map_or(0, |first| first[0])),
-            done: std::array::from_fn(|lane| packet.runs[lane].is_empty()),
-        }
-    }
-
-    /// Each ray takes its next sample; those that are through take an empty one. Also how many took one.
-    #[inline(always)]
-    fn next<const GAS: bool, const SCATTER: bool, const BEND: bool>(
-        &mut self,
-        march: &March<'_>,
-        around: &mut Around,
-    ) -> (Step, u64) {
-        let packet = &march.packet;
-        let mut taken = Step {
-            column: [0.0; LANES],
-            smoke: [0.0; LANES],
-            inverse_temperature: [1.0; LANES],
-            flame: [0.0; LANES],
-            length: [0.0; LANES],
-        };
-        let mut active = 0;
-        for lane in 0..LANES {
-            if self.done[lane] {
-                continue;
-            }
-            active += 1;
-            let share = if self.step[lane] == packet.last[lane] {
-                packet.last_share[lane]
-            } else {
-                1.0
-            };
-            let position: [f64; 3] = if BEND && !packet.middles[lane].is_empty() {
-                packet.middles[lane][self.step[lane] as usize]
-            } else {
-                let middle = f64::from(self.step[lane]) + 0.5 * f64::from(share);
-                std::array::from_fn(|axis| {
-                    packet.start[lane][axis] + middle * packet.delta[lane][axis]
-                })
-            };
-            let [soot, temperature, burning, smoke] =
-                lookup::<GAS, SCATTER>(march.medium, position);
-            let length = march.step_m * share;
-            taken.column[lane] = soot * length;
-            taken.inverse_temperature[lane] = 1.0 / temperature;
-            taken.length[lane] = length;
-            if GAS {
-                taken.flame[lane] = burning;
-            }
-            if SCATTER {
-                taken.smoke[lane] = smoke * length;
-                if let Some(scatter) = march.scatter {
-                    scatter.read(position, lane, &mut around[..march.tables.channels()]);
-                }
-            }
-            (self.step[lane], self.run[lane], self.done[lane]) =
-                advance(packet.runs[lane], self.step[lane], self.run[lane]);
-        }
-        (taken, active)
-    }
-}
-
-/// The step after this one, its run, and whether there is none.
-#[inline(always)]
-fn advance(runs: &[[u32; 2]], step: u32, run: usize) -> (u32, usize, bool) {
-    if step + 1 < runs[run][1] {
-        (step + 1, run, false)
-    } else if let Some(next) = runs.get(run + 1) {
-        (next[0], run + 1, false)
-    } else {
-        (step, run, true)
     }
 }

@@ -23,10 +23,13 @@ use crate::math::lanes::{LANES, Lanes};
 use crate::scene::Scene;
 use crate::scene::camera::{CameraError, View};
 
+use super::chord::Chord;
+use super::cover::Cover;
 use super::fields::Fields;
 use super::film::Pixel;
-use super::kernel::{Light, March, Packet};
+use super::kernel::{Light, March};
 use super::plan::Plan;
+use super::spans::Packet;
 use super::tables::Tables;
 use super::way::{End, Way, Ways};
 use crate::scene::stage::Hit;
@@ -36,6 +39,9 @@ pub const PACKET_SIDE: u32 = 4;
 
 const _: () = assert!((PACKET_SIDE * PACKET_SIDE) as usize == LANES);
 
+/// Where a ray may meet something of which nothing is known.
+const EVERYWHERE: Option<[f64; 2]> = Some([0.0, f64::INFINITY]);
+
 /// Marches packets of rays for one scene, plan and step.
 pub struct Marcher<'a> {
     view: View,
@@ -43,6 +49,8 @@ pub struct Marcher<'a> {
     tables: &'a Tables,
     fields: &'a Fields,
     ways: Ways<'a>,
+    /// Where rays may meet anything, where that is worth knowing.
+    cover: Option<Cover>,
 }
 
 /// The light of one ray.
@@ -92,15 +100,37 @@ impl<'a> Marcher<'a> {
                 bent: fields.bent.as_deref(),
                 step_m: step_voxels * medium.voxel_size_m(),
             },
+            cover: None,
         })
+    }
+
+    /// The same for a whole picture: works out in the calling thread's rayon pool which of its rays meet anything, a tenth
+    /// of a millisecond for a thousand bricks. The light of a ray stays the same to the last bit.
+    #[must_use]
+    pub fn for_a_picture(mut self) -> Self {
+        // Bent rays leave the lines along which bricks are seen.
+        self.cover = self
+            .ways
+            .bent
+            .is_none()
+            .then(|| Cover::new(self.ways.medium, &self.view, self.tables.size));
+        self
     }
 
     /// Follows the rays through the given points of the picture (pixels from the upper left corner). Returns
     /// what they leave on the film and how many samples of the medium were taken.
     pub fn march(&self, points: &[Option<[f64; 2]>; LANES]) -> ([Pixel; LANES], u64) {
         let mut pixels = [Pixel::default(); LANES];
+        let ranges = points.map(|point| {
+            self.cover
+                .as_ref()
+                .map_or(EVERYWHERE, |cover| cover.range(point?))
+        });
+        if ranges.iter().all(Option::is_none) && self.ways.is_dark_behind() {
+            return (pixels, 0);
+        }
         let ways: [Option<Way>; LANES] = std::array::from_fn(|lane| {
-            points[lane].map(|[x, y]| self.ways.of(&self.view.ray(x, y)))
+            points[lane].map(|[x, y]| self.ways.of(&self.view.ray(x, y), ranges[lane]))
         });
         let Some(light) = self.follow(&ways) else {
             return (pixels, 0);
@@ -177,13 +207,22 @@ impl<'a> Marcher<'a> {
         [radiance.collect(), features.collect()]
     }
 
+    /// The samples that the ray through a point of the picture takes of the medium: where the part of its way that each stands
+    /// for begins and ends, m from where it enters the medium's box. Between them there is nothing.
+    pub fn samples_of(&self, point: [f64; 2]) -> Vec<[f64; 2]> {
+        let way = self.ways.of(&self.view.ray(point[0], point[1]), EVERYWHERE);
+        let whole_m = self.ways.step_m;
+        let samples = way.chord.iter().flat_map(Chord::samples);
+        samples.map(|part| part.map(|at| at * whole_m)).collect()
+    }
+
     /// Follows the ray through one point of the picture and keeps its spectrum.
     pub fn radiance(&self, point: [f64; 2]) -> Seen {
         let counts = [self.tables.nodes.len(), self.tables.features.len()];
         let [mut radiance, mut features] = counts.map(|count| vec![0.0; count]);
         let mut backdrop = [0.0; 3];
         let mut ways: [Option<Way>; LANES] = std::array::from_fn(|_| None);
-        ways[0] = Some(self.ways.of(&self.view.ray(point[0], point[1])));
+        ways[0] = Some(self.ways.of(&self.view.ray(point[0], point[1]), EVERYWHERE));
         if let (Some(light), Some(way)) = (self.follow(&ways), &ways[0]) {
             let lane = |light: &Lanes| f64::from(light[0]);
             radiance = light.radiance.iter().take(counts[0]).map(lane).collect();
@@ -220,7 +259,7 @@ impl<'a> Marcher<'a> {
         if chords.iter().all(Option::is_none) {
             let is_dark = |way: &Way| matches!(way.end, End::Dark);
             let is_nothing = ways.iter().flatten().all(is_dark);
-            return (!is_nothing).then(Light::none);
+            return (!is_nothing).then(|| Light::none(self.tables.nodes.len()));
         }
         let march = March {
             medium: self.ways.medium,

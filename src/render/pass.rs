@@ -87,6 +87,7 @@ pub fn render_pass(
     let Ok(marcher) = Marcher::with_fields(scene, plan, fields, pass.step_voxels) else {
         return true;
     };
+    let marcher = marcher.for_a_picture();
     // Coarse passes are for speed.
     let higher = (plan.orders > 1 && pass.stride == 1)
         .then(|| HigherOrders::new(scene, &plan.tables, plan.orders));

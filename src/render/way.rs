@@ -35,19 +35,25 @@ pub(super) struct Ways<'a> {
 }
 
 impl Ways<'_> {
-    /// The way of a ray of the world.
-    pub(super) fn of(&self, ray: &Ray) -> Way {
+    /// Whether a straight ray that meets no brick brings nothing home.
+    pub(super) fn is_dark_behind(&self) -> bool {
+        !self.stage.shows_behind()
+    }
+
+    /// The way of a ray of the world; a straight one meets bricks at most at distances in `range`.
+    pub(super) fn of(&self, ray: &Ray, range: Option<[f64; 2]>) -> Way {
         match self.bent {
             Some(bent) => self.bent(ray, bent),
-            None => self.straight(ray),
+            None => self.straight(ray, range),
         }
     }
 
-    fn straight(&self, ray: &Ray) -> Way {
+    fn straight(&self, ray: &Ray, range: Option<[f64; 2]>) -> Way {
         let hit = self.stage.hit(ray, f64::INFINITY);
         let limit_m = hit.map_or(f64::INFINITY, |hit| hit.distance_m);
         Way {
-            chord: Chord::new(self.medium, ray, self.step_m, limit_m),
+            chord: range
+                .and_then(|range| Chord::new(self.medium, ray, self.step_m, limit_m, range)),
             end: match (hit, &self.screen) {
                 (Some(hit), _) => End::Surface(hit),
                 (None, Some(screen)) => End::Screen(screen.xyz(ray)),

@@ -154,12 +154,50 @@ impl View {
             direction: direction.normalize(),
         }
     }
+
+    /// A vector of the world from the eye (m): along the picture's width and height in pixels times the third number, which
+    /// is how far it goes forward, m. The point of the picture is the first two over the third, where that is above 0.
+    pub(crate) fn seen(&self, from_eye: DVec3) -> DVec3 {
+        let forward = from_eye.dot(self.forward);
+        let [half_width, half_height] = self.half;
+        let [width, height] = self.size.map(f64::from);
+        let across = from_eye.dot(self.right) / half_width;
+        let upwards = from_eye.dot(self.up) / half_height;
+        DVec3::new(
+            0.5 * width * (forward + across),
+            0.5 * height * (forward - upwards),
+            forward,
+        )
+    }
+
+    /// Where the eye is, m.
+    pub(crate) fn eye(&self) -> DVec3 {
+        self.eye
+    }
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
     use super::*;
+
+    #[test]
+    fn a_point_is_seen_where_its_ray_goes_through_the_picture() {
+        let camera = Camera {
+            eye: DVec3::new(1.0, -3.0, 2.0),
+            target: DVec3::new(0.2, 0.5, 0.1),
+            up: DVec3::new(0.1, 0.0, 1.0),
+            fov_deg: 50.0,
+        };
+        let view = camera.view([300, 200]).unwrap();
+        for (x, y, far) in [(0.0, 0.0, 0.1), (150.0, 100.0, 7.0), (299.5, 3.25, 2.0)] {
+            let ray = view.ray(x, y);
+            let seen = view.seen(far * ray.direction);
+            let [at_x, at_y] = [seen.x / seen.z, seen.y / seen.z];
+            assert!((at_x - x).abs() + (at_y - y).abs() < 1e-9, "{at_x} {at_y}");
+            assert!(seen.z > 0.0 && view.seen(-ray.direction).z < 0.0);
+        }
+    }
 
     #[test]
     fn the_centre_looks_at_the_target_and_row_zero_is_on_top() {

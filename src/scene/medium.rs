@@ -58,6 +58,8 @@ pub struct Medium {
     pub(crate) shown: u32,
     /// Worked out when they are asked for first.
     pub(crate) means: OnceLock<Means>,
+    /// The same.
+    pub(crate) cuts: OnceLock<Vec<u8>>,
 }
 
 /// The greatest of what a medium holds.

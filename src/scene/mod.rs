@@ -10,6 +10,7 @@ pub mod camera;
 mod camera_moves;
 mod columns;
 pub mod curves;
+mod cuts;
 mod fit;
 pub mod flame;
 mod flame_params;

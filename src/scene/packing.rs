@@ -243,6 +243,7 @@ pub(super) fn empty() -> Medium {
         interpolation: Interpolation::default(),
         peaks: Peaks::default(),
         means: OnceLock::new(),
+        cuts: OnceLock::new(),
         shown: 0,
     }
 }

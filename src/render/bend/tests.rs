@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::render::chord::Chord;
+use crate::render::chord::{Chord, Run};
 use crate::scene::Air;
 use crate::scene::flame::{Bending, Flame};
 use crate::scene::refractivity::tests::{Gas, VOXEL_M, ball, clear};
@@ -155,7 +155,14 @@ fn a_straight_path_is_cut_as_the_march_cuts_a_ray() {
     };
     for step_m in [0.003, 0.01, 0.037, 5.0] {
         let bent = bend(around, &ray, step_m).chord.unwrap();
-        let chord = Chord::new(flame.medium(), &ray, step_m, f64::INFINITY).unwrap();
+        let chord = Chord::new(
+            flame.medium(),
+            &ray,
+            step_m,
+            f64::INFINITY,
+            [0.0, f64::INFINITY],
+        )
+        .unwrap();
         assert_eq!(bent.last, chord.last, "{step_m}");
         assert!((bent.last_share - chord.last_share).abs() < 1e-5);
         assert_eq!(bent.middles.len(), bent.last as usize + 1);
@@ -172,8 +179,8 @@ fn a_straight_path_is_cut_as_the_march_cuts_a_ray() {
                 assert!((found - expected).abs() < 1e-5, "{step_m}: step {step}");
             }
         }
-        for [first, end] in &bent.runs {
-            let holds = |run: &[u32; 2]| run[0] <= *first && *end <= run[1];
+        for Run { first, end, .. } in &bent.runs {
+            let holds = |run: &Run| run.first <= *first && *end <= run.end;
             assert!(
                 chord.runs.iter().any(holds),
                 "{:?}, {:?}",
@@ -217,7 +224,7 @@ fn steps_lie_on_the_path_and_those_with_gas_are_in_runs() {
             let in_run = chord
                 .runs
                 .iter()
-                .any(|run| (run[0] as usize..run[1] as usize).contains(&step));
+                .any(|run| (run.first as usize..run.end as usize).contains(&step));
             let soot = medium.sample((*position).into())[0];
             assert!(in_run || soot == 0.0, "step {step} is skipped");
         }
