@@ -1,6 +1,7 @@
 //! A ray prepared for the march: its steps through the domain, which of them may meet soot, and how finely these are cut.
 //!
-//! Steps are cut into shorter ones where the fire's light changes from voxel to voxel ([`Medium::cuts`]): thin hot sheets are what a picture's error comes from.
+//! Steps are cut into shorter ones where the fire's light changes from voxel to voxel ([`Medium::cuts`]): thin hot sheets
+//! are what a picture's error comes from.
 
 use glam::DVec3;
 

@@ -26,8 +26,9 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
             range: ranges::STEP_VOXELS,
             logarithmic: true,
             default: step_default,
-            tip: "How far apart the fire is sampled along a line of sight. Longer steps are faster in proportion, but \
-                  step over thin sheets of flame: they become blurred and too dim or too bright.",
+            tip: "How far apart the fire is sampled along a line of sight at most: closer where its light changes from \
+                  voxel to voxel. Longer steps are faster, but step over thin sheets of flame: they become blurred and \
+                  too dim or too bright.",
             idle: None,
         }
         .show(ui, &mut step);
