@@ -17,7 +17,8 @@
 //!  5 render       THE CORE: plan and tables; fields of scattered, thrown and bent light; ways, kernel and march; film,
 //!                 passes, develop; the unbiased reference; what effects cost. Headless, no global state, and no clock but
 //!                 to tell what work took
-//!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot and how it bends light, Camera,
+//!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot and how it bends light, how finely and
+//!                 in which means each brick is looked at, Camera,
 //!                 Stage, wavelength sets
 //!  3 volume       grids in memory and on disk, field mappings, the built-in flames
 //!  2 physics      laws: f64, SI, no grids, no pictures
