@@ -9,14 +9,13 @@
 //!
 //! With `SOOTLIGHT_SCENES=panfire` those alone whose name has it.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use sootlight::project::Project;
 use sootlight::render::difference::{Difference, difference};
 use sootlight::render::plan::{Decision, Effect, OFF_BELOW, ON_ABOVE};
 use sootlight::render::{Cancel, Effects, Frame, Plan, Settings, Switch, render_still};
-use sootlight::volume::{self, BuiltIn, Limits, Volume};
+use sootlight::volume::{self, BuiltIn, Limits, Volume, Wanted};
 
 use super::common;
 
@@ -49,7 +48,12 @@ struct Looked {
 
 impl Looked {
     fn at(scene: &Scene) -> Self {
-        let volume = volume::open_or_built_in(&scene.files, BuiltIn::default(), &Limits::default());
+        let volume = volume::open_or_built_in(
+            &scene.files,
+            BuiltIn::default(),
+            &Wanted::default(),
+            &Limits::default(),
+        );
         Self {
             volume: Arc::new(volume.unwrap()),
             sets: scene.sets.clone(),
@@ -310,29 +314,47 @@ fn a_sequence_keeps_the_effects_of_its_first_frame() {
     let Some(shared) = common::shared() else {
         return;
     };
-    let file = |frame: u32| shared.join(format!("data/panfire_seq/panfire_{frame:04}.vdb"));
-    let plan = |path: PathBuf, effects: Option<Effects>| {
-        let volume = Arc::new(volume::open(&[path], &Limits::default()).unwrap());
+    let volumes: Vec<Arc<Volume>> = [1, 3, 6, 9, 12]
+        .iter()
+        .map(|frame| {
+            let path = shared.join(format!("data/panfire_seq/panfire_{frame:04}.vdb"));
+            Arc::new(volume::open(&[path], &Limits::default()).unwrap())
+        })
+        .collect();
+    let plan = |volume: &Arc<Volume>, smoke: f64, effects: Option<Effects>| {
         let mut project = Project::default();
         project.set("render.size=[32, 32]").unwrap();
-        let mut job = project.job(&volume).unwrap();
+        project.smoke.amount = smoke;
         if let Some(effects) = effects {
-            job.settings.effects = effects;
+            project.effects = effects.into();
         }
+        let job = project.job(volume).unwrap();
         let plan = Plan::new(&job.scene(None), &job.settings);
         (plan, job.settings.effects)
     };
-    let (first, asked) = plan(file(6), None);
+    // So little smoke at first that it is left out; then so much that a frame alone would show it.
+    let (little, much) = (1e-7, 1.0);
+    let (first, asked) = plan(&volumes[0], little, None);
     let locked = asked.as_decided(&first.decisions);
     assert!(
         Effect::ALL
             .iter()
-            .all(|it| it.switch(&locked) != Switch::Auto
-                || matches!(it, Effect::Soot | Effect::Smoke))
+            .all(|it| it.switch(&locked) != Switch::Auto || *it == Effect::Soot)
     );
     let states = |plan: &Plan| -> Vec<bool> { plan.decisions.iter().map(|it| it.on).collect() };
-    for frame in [1, 3, 9, 12] {
-        let (next, _) = plan(file(frame), Some(locked));
-        assert_eq!(states(&next), states(&first), "frame {frame}");
+    let with_smoke = Effects {
+        smoke: Switch::On,
+        ..locked
+    };
+    let has_smoke = |plan: &Plan| {
+        plan.decisions
+            .iter()
+            .any(|it| it.effect == Effect::Smoke && it.on)
+    };
+    for volume in &volumes {
+        let (next, _) = plan(volume, much, Some(locked));
+        assert_eq!(states(&next), states(&first), "{:?}", volume.sources);
+        assert!(has_smoke(&plan(volume, much, None).0));
+        assert!(has_smoke(&plan(volume, little, Some(with_smoke)).0));
     }
 }

@@ -119,3 +119,26 @@ pub(crate) fn scene_file(name: &str, file: &Path, size: [u32; 2]) -> (Scene, Set
     let job = project.job(&Arc::new(volume)).unwrap();
     (job.scene(None), job.settings)
 }
+
+/// Writes an OpenVDB file of cubes of 12³ voxels of 1 cm. Each has a name and a peak, to which it rises from a tenth of it.
+pub(crate) fn write_vdb(path: &Path, grids: &[(&str, f32)]) {
+    use openvdb_rs::grid::{AnyGrid, GridClass};
+    use openvdb_rs::math::{Coord, Transform};
+    const SIDE: i32 = 12;
+    let grids: Vec<AnyGrid> = grids
+        .iter()
+        .map(|&(name, peak)| {
+            let transform = Transform::linear(0.01);
+            let mut grid = openvdb_rs::grid::Grid::<f32>::new(0.0);
+            grid = grid.with_transform(transform).with_name(name);
+            grid.set_grid_class(GridClass::FogVolume);
+            for i in 0..SIDE.pow(3) {
+                let voxel = Coord::new(i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE);
+                let share = 0.1 + 0.9 * (i % 97) as f32 / 96.0;
+                grid.set_value(&voxel, share * peak);
+            }
+            AnyGrid::from(grid)
+        })
+        .collect();
+    openvdb_rs::io::write_file(path, &grids, &openvdb_rs::metadata::MetaMap::default()).unwrap();
+}

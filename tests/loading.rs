@@ -2,6 +2,7 @@
 
 mod fuzz;
 mod real;
+mod wanted;
 mod watching;
 
 use std::fs;

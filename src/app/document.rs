@@ -3,20 +3,20 @@
 //! The document asks nobody to render. It only says, when asked, which [`Job`] it stands for; the window compares
 //! that with what it submitted last.
 
+mod volumes;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::history::History;
 use crate::colour::display::View;
-use crate::project::{
-    Backdrops, CameraSettings, Job, Project, ProjectError, ViewSettings, VolumeSettings,
-};
+use crate::project::{Backdrops, CameraSettings, Job, Project, ViewSettings};
 use crate::render::Facts;
 use crate::render::costs::Cost;
 use crate::render::develop::Metering;
 use crate::render::plan::Decision;
 use crate::scene::{Camera, flame};
-use crate::volume::{FieldKind, Recognised, Volume, recognise};
+use crate::volume::{FieldKind, Recognised, Volume, Wanted};
 
 /// Steps that can be taken back.
 const MOST_UNDO: usize = 200;
@@ -46,6 +46,8 @@ pub struct Document {
     /// What was last asked of the open volume: the answer stands while this does.
     asked: Option<Project>,
     problem: Option<String>,
+    /// What could not be read, or was not to be: it is not tried again.
+    given_up: Option<Wanted>,
     /// The picture behind the fire, so that it is read once.
     backdrops: Backdrops,
 }
@@ -92,6 +94,7 @@ impl Document {
             job: None,
             asked: None,
             problem: None,
+            given_up: None,
             backdrops: Backdrops::default(),
         }
     }
@@ -104,82 +107,6 @@ impl Document {
     /// Who is thought to have written it, and why.
     pub fn recognised(&self) -> Option<&Recognised> {
         self.open.as_ref().map(|open| &open.recognised)
-    }
-
-    /// Shows a volume with the settings as they are: the one that the project itself names. No undo reaches behind it.
-    ///
-    /// # Errors
-    /// [`ProjectError`]: it comes from files that cannot be rendered so. Everything stays as it was.
-    pub fn open(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
-        // The built-in flame can be rendered: there it is a setting that cannot, which a person can change.
-        if !volume.sources.is_empty() {
-            self.project.job_keeping(&volume, &mut self.backdrops)?;
-        }
-        self.put(volume);
-        self.history = History::default();
-        Ok(())
-    }
-
-    /// Shows another volume than the project's. What belonged to the old file — its fields' mapping, where the
-    /// camera stood — goes back to what is chosen from the file; fuel, soot, quality and view stay.
-    /// An undo brings the old one back.
-    ///
-    /// # Errors
-    /// [`ProjectError`]: there is nothing to render in it. Everything stays as it was.
-    pub fn replace(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
-        self.replace_and(volume, |_| {})
-    }
-
-    /// [`Document::replace`], with more changes in the same step.
-    ///
-    /// # Errors
-    /// As [`Document::replace`].
-    pub fn replace_and(
-        &mut self,
-        volume: Arc<Volume>,
-        change: impl FnOnce(&mut Project),
-    ) -> Result<(), ProjectError> {
-        let mut project = self.project.clone();
-        project.volume = VolumeSettings {
-            path: volume.sources.clone(),
-            built_in: volume.built_in.unwrap_or_default(),
-            ..VolumeSettings::default()
-        };
-        project.camera = CameraSettings::default();
-        change(&mut project);
-        project.job_keeping(&volume, &mut self.backdrops)?;
-        let before = self.step();
-        self.project = project;
-        self.put_after(before, volume);
-        Ok(())
-    }
-
-    /// Shows the open volume with a field more: every setting stays, and so does undo.
-    ///
-    /// # Errors
-    /// [`ProjectError`]: it cannot be rendered with these settings. Everything stays as it was.
-    pub fn complete(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
-        self.project.job_keeping(&volume, &mut self.backdrops)?;
-        let before = self.step();
-        self.project.volume.path.clone_from(&volume.sources);
-        self.put_after(before, volume);
-        Ok(())
-    }
-
-    /// Shows a volume as a step of undo. There is none back to a window that shows nothing.
-    fn put_after(&mut self, before: Step, volume: Arc<Volume>) {
-        self.put(volume);
-        if before.open.is_some() {
-            self.history.push(before, within_bounds(self.open.clone()));
-        } else {
-            self.history = History::default();
-        }
-    }
-
-    fn put(&mut self, volume: Arc<Volume>) {
-        let recognised = recognise(&volume);
-        self.restore(Some(Arc::new(OpenVolume { volume, recognised })));
-        self.metering = None;
     }
 
     fn restore(&mut self, open: Option<Arc<OpenVolume>>) {
@@ -196,12 +123,6 @@ impl Document {
             metering: self.metering,
             open: self.open.clone(),
         }
-    }
-
-    /// Whether one more file may complete the open volume: it came from files and has a single field.
-    pub fn wants_a_partner(&self) -> Option<&Arc<Volume>> {
-        self.volume()
-            .filter(|volume| volume.grids.len() == 1 && !volume.sources.is_empty())
     }
 
     /// The names of the open files without their folders, or what is shown instead of files.
@@ -222,6 +143,9 @@ impl Document {
     /// What to render for a canvas of this many pixels: the last job that was valid, if the project is not.
     /// `None` while there is no volume.
     pub fn job(&mut self, canvas: [u32; 2]) -> Option<&Job> {
+        if self.lacking().is_some() {
+            return self.job.as_ref();
+        }
         let canvas = self.fixed_size.unwrap_or(canvas);
         let volume = &self.open.as_ref()?.volume;
         let asked = self.asked.as_ref();

@@ -3,74 +3,21 @@
 //! The newest request that can be read wins: what an older one brings waits until no newer one is left, and is
 //! dropped once a newer one has come. What no longer counts is stopped. A failure is a sentence, never a panic.
 
+mod request;
+
 use std::panic::{AssertUnwindSafe, UnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-use crate::project::Preset;
-use crate::volume::{self, BuiltIn, Limits, Volume, VolumeError, Watch};
+use request::load;
+pub(super) use request::{Outcome, Request};
+
+use crate::volume::Watch;
 
 /// A dialog that closes sooner was never seen by anybody.
 const TOO_QUICK_FOR_A_PERSON: Duration = Duration::from_millis(400);
-/// Share of a partner's load that opening it with the open volume takes: seldom must it be read again alone.
-const TOGETHER: f32 = 0.8;
-
-/// What to open.
-#[derive(Debug, Clone)]
-pub(super) enum Request {
-    /// A flame that needs no file: settings stay as they are.
-    BuiltIn(BuiltIn),
-    /// What the project names: settings stay as they are.
-    Project(Vec<PathBuf>),
-    /// These files as one volume, instead of what is open.
-    Files(Vec<PathBuf>),
-    /// A flame that needs no file, instead of what is open, burning as in a preset if one was chosen.
-    OtherBuiltIn(BuiltIn, Option<&'static Preset>),
-    /// A file that may bring the missing field of the open volume, or else replaces it.
-    Partner(Arc<Volume>, PathBuf),
-}
-
-/// What became of a request.
-#[derive(Debug)]
-pub(super) enum Outcome {
-    /// A volume for the project as it stands.
-    Shown(Arc<Volume>),
-    /// A volume that takes the place of the open one.
-    Replaced(Arc<Volume>),
-    /// One that does so and burns as in a preset.
-    Burning(Arc<Volume>, &'static Preset),
-    /// The open volume with a field that it lacked.
-    Completed {
-        /// What was open when this was asked for.
-        open: Arc<Volume>,
-        /// Both together.
-        both: Arc<Volume>,
-    },
-    /// Nothing was opened, and why.
-    Failed {
-        /// What was asked for.
-        request: Request,
-        /// Why not, in words.
-        words: String,
-    },
-    /// Somebody chose files in the dialog.
-    Chosen(Vec<PathBuf>),
-    /// The dialog never appeared.
-    NoDialog,
-}
-
-impl Outcome {
-    /// The volume that it brought.
-    fn volume(&self) -> Option<&Arc<Volume>> {
-        match self {
-            Self::Shown(volume) | Self::Replaced(volume) | Self::Burning(volume, _) => Some(volume),
-            Self::Completed { both, .. } => Some(both),
-            Self::Failed { .. } | Self::Chosen(_) | Self::NoDialog => None,
-        }
-    }
-}
 
 /// A load that has not failed and was not overtaken by one that succeeded.
 struct Load {
@@ -236,81 +183,6 @@ impl Loader {
 impl Drop for Loader {
     fn drop(&mut self) {
         self.cancel();
-    }
-}
-
-impl Request {
-    fn words(&self) -> String {
-        let names = |paths: &[PathBuf]| {
-            let name = |path: &PathBuf| path.display().to_string();
-            paths.iter().map(name).collect::<Vec<_>>().join(", ")
-        };
-        match self {
-            Self::BuiltIn(flame) | Self::OtherBuiltIn(flame, _) => {
-                format!("the built-in {}", flame.name())
-            }
-            Self::Project(paths) | Self::Files(paths) => names(paths),
-            Self::Partner(_, path) => path.display().to_string(),
-        }
-    }
-}
-
-fn load(request: Request, watch: &Watch) -> Outcome {
-    let limits = Limits::default();
-    let open = |paths| volume::open_watched(paths, &limits, watch);
-    let outcome = match &request {
-        Request::BuiltIn(flame) => flame
-            .volume_watched(watch)
-            .map(|v| Outcome::Shown(v.into())),
-        Request::OtherBuiltIn(flame, None) => flame
-            .volume_watched(watch)
-            .map(|v| Outcome::Replaced(v.into())),
-        Request::OtherBuiltIn(flame, Some(preset)) => flame
-            .volume_watched(watch)
-            .map(|v| Outcome::Burning(v.into(), preset)),
-        Request::Project(paths) => open(paths).map(|v| Outcome::Shown(v.into())),
-        Request::Files(paths) => open(paths).map(|v| Outcome::Replaced(v.into())),
-        Request::Partner(open, path) => open_partner(open, path, &limits, watch),
-    };
-    let outcome = outcome.unwrap_or_else(|error| Outcome::Failed {
-        request,
-        words: error.to_string(),
-    });
-    // What a camera frames takes a walk over all voxels: here, not where the window waits for it.
-    for grid in outcome.volume().iter().flat_map(|volume| &volume.grids) {
-        grid.bulk();
-    }
-    outcome
-}
-
-/// The open volume with the file's field; or the file alone, where it has the same field.
-fn open_partner(
-    open: &Arc<Volume>,
-    path: &Path,
-    limits: &Limits,
-    watch: &Watch,
-) -> Result<Outcome, VolumeError> {
-    match open.with_file_watched(path, limits, &watch.part(0.0, TOGETHER)) {
-        Ok(both) => Ok(Outcome::Completed {
-            open: Arc::clone(open),
-            both: both.into(),
-        }),
-        Err(VolumeError::Cancelled) => Err(VolumeError::Cancelled),
-        Err(together) => {
-            let watch = watch.part(TOGETHER, 1.0);
-            let alone = volume::open_watched(&[path.to_owned()], limits, &watch)?;
-            let partner = matches!(together, VolumeError::DimensionsDiffer { .. })
-                && alone
-                    .grids
-                    .iter()
-                    .all(|grid| open.grid(&grid.name).is_none());
-            // A temperature of other dimensions was meant for this density, and cannot serve it.
-            if partner {
-                Err(together)
-            } else {
-                Ok(Outcome::Replaced(alone.into()))
-            }
-        }
     }
 }
 

@@ -101,7 +101,7 @@ impl App {
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
         loader.begin(match project.volume.path.as_slice() {
             [] => Request::BuiltIn(project.volume.built_in),
-            paths => Request::Project(paths.to_vec()),
+            paths => Request::Project(paths.to_vec(), project.wanted()),
         });
         Ok(Self {
             document: Document::new(project),
@@ -204,6 +204,7 @@ impl eframe::App for App {
 
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         self.receive();
+        self.read_what_is_lacking();
         self.exporter.poll();
         // A hidden window can be closed as well.
         self.guard_the_export(ctx);
@@ -258,6 +259,7 @@ impl eframe::App for App {
         self.document
             .remember(before, hands::is_held(&ctx) || shown.scrolling);
         self.obey(commands);
+        self.read_what_is_lacking();
         self.follow();
     }
 }

@@ -31,7 +31,7 @@ impl App {
         let request = match (self.document.wants_a_partner(), paths.as_slice()) {
             (_, []) => return,
             (Some(open), [path]) => Request::Partner(Arc::clone(open), path.clone()),
-            _ => Request::Files(paths),
+            _ => Request::Files(paths, self.document.wanted_of_another()),
         };
         self.notice = None;
         self.loader.begin(request);
@@ -43,8 +43,20 @@ impl App {
             return;
         }
         self.loader.cancel();
+        self.document.do_without_the_rest();
         if self.document.volume().is_none() {
             self.fall_back();
+        }
+    }
+
+    /// Begins to read grids of the open files that were left unread, and that the settings have come to need.
+    pub(super) fn read_what_is_lacking(&mut self) {
+        if self.loader.loading().is_some() {
+            return;
+        }
+        if let (Some(open), Some(wanted)) = (self.document.volume(), self.document.lacking()) {
+            self.loader
+                .begin(Request::Lacking(Arc::clone(open), wanted));
         }
     }
 
@@ -83,7 +95,16 @@ impl App {
                     };
                     self.show(both, way);
                 }
+                Outcome::Filled { open, volume } => {
+                    let now = self.document.volume();
+                    if now.is_some_and(|now| Arc::ptr_eq(now, &open)) {
+                        self.document.fill(volume);
+                    }
+                }
                 Outcome::Failed { request, words } => {
+                    if matches!(request, Request::Lacking(..)) {
+                        self.document.do_without_the_rest();
+                    }
                     self.refuse(&words, !matches!(request, Request::BuiltIn(_)));
                 }
                 Outcome::Chosen(paths) => self.open(paths),

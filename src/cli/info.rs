@@ -21,7 +21,7 @@ impl Info {
 }
 
 fn told(project: &Project, with_plan: bool) -> Result<(), CliError> {
-    let volume = load::volume(project)?;
+    let volume = load::whole_volume(project)?;
     let summary = summarise(&volume, project.volume.producer);
     let mut text = sources(&summary, project);
     text.push_str(&grids(&summary));

@@ -4,15 +4,21 @@ use std::sync::Arc;
 
 use super::error::CliError;
 use crate::project::Project;
-use crate::volume::{self, Limits, Volume};
+use crate::volume::{self, Limits, Volume, Wanted};
 
-/// Opens the project's files, or makes the built-in flame if there are none.
+/// Opens what the project needs of its files, or makes the built-in flame if there are none.
 pub(super) fn volume(project: &Project) -> Result<Arc<Volume>, CliError> {
-    volume::open_or_built_in(
-        &project.volume.path,
-        project.volume.built_in,
-        &Limits::default(),
-    )
-    .map(Arc::new)
-    .map_err(|error| CliError::failed("the volume cannot be opened", error))
+    open(project, &project.wanted())
+}
+
+/// Opens the project's files with every grid.
+pub(super) fn whole_volume(project: &Project) -> Result<Arc<Volume>, CliError> {
+    open(project, &Wanted::everything())
+}
+
+fn open(project: &Project, wanted: &Wanted) -> Result<Arc<Volume>, CliError> {
+    let volume = &project.volume;
+    volume::open_or_built_in(&volume.path, volume.built_in, wanted, &Limits::default())
+        .map(Arc::new)
+        .map_err(|error| CliError::failed("the volume cannot be opened", error))
 }

@@ -97,6 +97,7 @@ impl Still {
             (&mut told.refraction, alone.refraction, seen.refraction),
             (&mut told.dispersion, alone.dispersion, seen.dispersion),
             (&mut told.fire_light, alone.fire_light, seen.fire_light),
+            (&mut told.smoke, alone.smoke, seen.smoke),
         ] {
             if alone != seen {
                 *told = seen;

@@ -67,6 +67,14 @@ pub enum ProjectError {
         /// "; did you mean …?" or nothing.
         hint: String,
     },
+    /// A field names a grid that was left unread when the file was opened.
+    #[error("{key} is \"{name}\", which was not read from the file: open the file again")]
+    GridNotRead {
+        /// Dotted key of the scene file.
+        key: String,
+        /// What was set.
+        name: String,
+    },
     /// Nothing in the file can glow or absorb.
     #[error(
         "nothing to render: no grid is mapped to soot or smoke. The file has {available}; set volume.soot.grid"

@@ -2,9 +2,11 @@
 
 use super::error::ProjectError;
 use super::set::did_you_mean;
-use super::settings::{FieldSettings, VolumeSettings};
-use crate::render::Flaws;
-use crate::volume::{self, About, FieldKind, FieldMap, FieldMaps, Preset, Producer, Volume};
+use super::settings::{FieldSettings, Project, VolumeSettings};
+use crate::render::{Flaws, Switch};
+use crate::volume::{
+    self, About, FieldKind, FieldMap, FieldMaps, Preset, Producer, Volume, Wanted,
+};
 
 impl VolumeSettings {
     /// The overrides of one field.
@@ -25,6 +27,25 @@ impl VolumeSettings {
             FieldKind::Flame => &mut self.flame,
             FieldKind::Temperature => &mut self.temperature,
         }
+    }
+}
+
+impl Project {
+    /// Which grids of the files this project needs: no field that only an effect reads which is switched off.
+    pub fn wanted(&self) -> Wanted {
+        let named = FieldKind::ALL.map(|kind| self.volume.field(kind).grid.clone());
+        let left_out = [
+            (FieldKind::Flame, self.effects.chemiluminescence),
+            (FieldKind::Smoke, self.effects.smoke),
+        ];
+        Wanted::fields(
+            self.volume.producer,
+            named.into_iter().flatten(),
+            left_out
+                .into_iter()
+                .filter(|(_, switch)| *switch == Switch::Off)
+                .map(|(kind, _)| kind),
+        )
     }
 }
 
@@ -104,10 +125,15 @@ fn merged(
         (Some(name), Some(base)) if base.grid == name => base.clone(),
         (Some(name), _) => {
             let grid = volume.grid(name).ok_or_else(|| {
-                let names = volume.grids.iter().map(|grid| grid.name.as_str());
+                if volume.grid_names().any(|other| other == name) {
+                    return ProjectError::GridNotRead {
+                        key: key("grid"),
+                        name: name.to_owned(),
+                    };
+                }
                 ProjectError::NoSuchGrid {
                     key: key("grid"),
-                    hint: did_you_mean(name, names)
+                    hint: did_you_mean(name, volume.grid_names())
                         .map_or(String::new(), |name| format!("; did you mean \"{name}\"?")),
                     available: grid_names(volume),
                     name: name.to_owned(),
@@ -192,11 +218,8 @@ fn say_clamped(volume: &Volume, kind: FieldKind, map: &FieldMap, flaws: &mut Fla
 
 /// The grids' names in quotes, for a message.
 fn grid_names(volume: &Volume) -> String {
-    let names: Vec<String> = volume
-        .grids
-        .iter()
-        .map(|grid| format!("\"{}\"", grid.name))
-        .collect();
+    let names = volume.grid_names().map(|name| format!("\"{name}\""));
+    let names: Vec<String> = names.collect();
     if names.is_empty() {
         "no grids".into()
     } else {

@@ -10,15 +10,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
-use crate::render::{Effects, Switch};
 use crate::scene::{Camera, Fuel, Salt};
 use crate::volume::{BuiltIn, Producer};
 
 mod air;
+mod effects;
 mod render;
 mod stage;
 
 pub use air::{AirSettings, Saturation};
+pub use effects::EffectSettings;
 pub use render::{Quality, RenderSettings};
 pub use stage::{BackdropKind, StageSettings};
 
@@ -146,47 +147,6 @@ impl Default for FuelSettings {
             salt: Salt::default(),
             salt_ppm: 100.0,
             blue_glow: 1.0,
-        }
-    }
-}
-
-/// `[effects]`
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct EffectSettings {
-    /// Lines of a salt's atoms.
-    pub lines: Switch,
-    /// Bands of a salt's molecules.
-    pub bands: Switch,
-    /// Light of radicals in the reaction zone.
-    pub chemiluminescence: Switch,
-    /// The fire's own light, scattered once by soot and smoke.
-    pub scattering: Switch,
-    /// Light bent by hot gas.
-    pub refraction: Switch,
-    /// Colours bent differently.
-    pub dispersion: Switch,
-    /// The fire as a light for the stage.
-    pub fire_light: Switch,
-    /// Smoke beside the soot.
-    pub smoke: Switch,
-    /// Light scattered more than once.
-    pub scattering_orders: Switch,
-}
-
-impl From<EffectSettings> for Effects {
-    fn from(set: EffectSettings) -> Self {
-        Self {
-            lines: set.lines,
-            bands: set.bands,
-            chemiluminescence: set.chemiluminescence,
-            scattering: set.scattering,
-            refraction: set.refraction,
-            dispersion: set.dispersion,
-            fire_light: set.fire_light,
-            smoke: set.smoke,
-            scattering_orders: set.scattering_orders,
-            wavelengths: Switch::Auto,
         }
     }
 }

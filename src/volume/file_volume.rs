@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::IVec3;
 
-use super::{Format, Grid, Metadata, SkippedGrid};
+use super::{Format, Grid, Metadata, SkippedGrid, UnreadGrid};
 
 /// What one file holds.
 #[derive(Debug)]
@@ -12,6 +12,7 @@ pub(super) struct FileVolume {
     pub path: PathBuf,
     pub format: Format,
     pub grids: Vec<Grid>,
+    pub unread: Vec<UnreadGrid>,
     pub skipped: Vec<SkippedGrid>,
     pub metadata: Metadata,
     pub notes: Vec<String>,
@@ -25,6 +26,7 @@ impl FileVolume {
             path: path.to_owned(),
             format,
             grids: Vec::new(),
+            unread: Vec::new(),
             skipped: Vec::new(),
             metadata: Metadata::default(),
             notes: Vec::new(),
@@ -45,5 +47,11 @@ impl FileVolume {
             dims,
             ..Self::new(path, format)
         }
+    }
+
+    /// The names of all scalar grids, read or not.
+    pub(super) fn grid_names(&self) -> impl Iterator<Item = &str> {
+        let read = self.grids.iter().map(|grid| grid.name.as_str());
+        read.chain(self.unread.iter().map(|grid| grid.name.as_str()))
     }
 }

@@ -10,7 +10,7 @@ use super::file_volume::FileVolume;
 use super::procedural::BuiltIn;
 use super::sniff::{Sniffed, sniff};
 use super::watch::{Stretch, Watch};
-use super::{Format, Grid, Limits, Metadata, Volume, VolumeError};
+use super::{Format, Grid, Limits, Metadata, Volume, VolumeError, Wanted};
 use super::{openvdb, report_ascii, report_binary};
 
 /// Enough of a file to tell what it is.
@@ -42,7 +42,21 @@ pub fn open_watched(
     limits: &Limits,
     watch: &Watch,
 ) -> Result<Volume, VolumeError> {
-    let opened = open_together(paths, limits, watch);
+    open_wanted(paths, &Wanted::everything(), limits, watch)
+}
+
+/// Opens files as [`open_watched`] does, and reads of them only what is wanted; a grid that is not is named in
+/// [`Volume::unread`]. Formats of one field are read whole.
+///
+/// # Errors
+/// As [`open_watched`]. Damage within a grid that is not read is not found.
+pub fn open_wanted(
+    paths: &[PathBuf],
+    wanted: &Wanted,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Volume, VolumeError> {
+    let opened = open_together(paths, wanted, limits, watch);
     // A reader that was stopped may have said so in words of its own.
     watch.whole().check()?;
     let volume = opened?;
@@ -50,7 +64,12 @@ pub fn open_watched(
     Ok(volume)
 }
 
-fn open_together(paths: &[PathBuf], limits: &Limits, watch: &Watch) -> Result<Volume, VolumeError> {
+fn open_together(
+    paths: &[PathBuf],
+    wanted: &Wanted,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Volume, VolumeError> {
     if paths.is_empty() {
         return Err(VolumeError::NoFiles);
     }
@@ -65,29 +84,30 @@ fn open_together(paths: &[PathBuf], limits: &Limits, watch: &Watch) -> Result<Vo
         let stretch = watch
             .whole()
             .part(before_it as f32 / all, after_it as f32 / all);
-        let part = read_file(path, limits, stretch)?;
+        let part = read_file(path, wanted, limits, stretch)?;
         for before in &parts {
             check_together(before, &part)?;
         }
         parts.push(part);
         before_it = after_it;
     }
-    Ok(merge(parts))
+    Ok(merge(parts, wanted))
 }
 
-/// Opens files as [`open`] does, or makes the given built-in flame if there are none.
+/// Opens what is wanted of files, or makes the given built-in flame if there are none.
 ///
 /// # Errors
-/// As [`open`].
+/// As [`open_wanted`].
 pub fn open_or_built_in(
     paths: &[PathBuf],
     built_in: BuiltIn,
+    wanted: &Wanted,
     limits: &Limits,
 ) -> Result<Volume, VolumeError> {
     if paths.is_empty() {
         Ok(built_in.volume())
     } else {
-        open(paths, limits)
+        open_wanted(paths, wanted, limits, &Watch::default())
     }
 }
 
@@ -100,10 +120,10 @@ impl Volume {
         self.with_file_watched(path, limits, &Watch::default())
     }
 
-    /// As [`Volume::with_file`], under the eyes of a watch.
+    /// As [`Volume::with_file`], under the eyes of a watch. Of the file is read what was read of the others.
     ///
     /// # Errors
-    /// As [`open_watched`] with all the files.
+    /// As [`open_wanted`] with all the files.
     pub fn with_file_watched(
         &self,
         path: &Path,
@@ -112,11 +132,16 @@ impl Volume {
     ) -> Result<Self, VolumeError> {
         let mut paths = self.sources.clone();
         paths.push(path.to_owned());
-        open_watched(&paths, limits, watch)
+        open_wanted(&paths, &self.read_for, limits, watch)
     }
 }
 
-fn read_file(path: &Path, limits: &Limits, stretch: Stretch) -> Result<FileVolume, VolumeError> {
+fn read_file(
+    path: &Path,
+    wanted: &Wanted,
+    limits: &Limits,
+    stretch: Stretch,
+) -> Result<FileVolume, VolumeError> {
     stretch.check()?;
     let io = |source| VolumeError::Io {
         path: path.to_owned(),
@@ -150,7 +175,7 @@ fn read_file(path: &Path, limits: &Limits, stretch: Stretch) -> Result<FileVolum
             found,
             advice,
         }),
-        Sniffed::OpenVdb => openvdb::read(path, &bytes, about.len(), limits, stretch),
+        Sniffed::OpenVdb => openvdb::read(path, &bytes, about.len(), wanted, limits, stretch),
         text_or_binary => {
             let (reading, making) = (stretch.part(0.0, READING), stretch.part(READING, 1.0));
             // The file may have grown since its length was asked for.
@@ -208,23 +233,24 @@ fn check_together(a: &FileVolume, b: &FileVolume) -> Result<(), VolumeError> {
         }
     }
     // Either name stands for the glowing part of a one-field file.
-    let role = |grid: &Grid| match grid.name.as_str() {
+    let role = |name: &str| match name {
         "soot" if a.format != Format::OpenVdb => "density".to_owned(),
         name => name.to_owned(),
     };
-    for grid in &a.grids {
-        if b.grids.iter().any(|other| role(other) == role(grid)) {
-            return Err(VolumeError::SameField {
-                first,
-                second,
-                field: grid.name.clone(),
-            });
-        }
+    let common = a
+        .grid_names()
+        .find(|name| b.grid_names().any(|other| role(other) == role(name)));
+    match common {
+        Some(field) => Err(VolumeError::SameField {
+            first,
+            second,
+            field: field.to_owned(),
+        }),
+        None => Ok(()),
     }
-    Ok(())
 }
 
-fn merge(parts: Vec<FileVolume>) -> Volume {
+fn merge(parts: Vec<FileVolume>, wanted: &Wanted) -> Volume {
     let format = parts
         .iter()
         .map(|part| part.format)
@@ -234,6 +260,8 @@ fn merge(parts: Vec<FileVolume>) -> Volume {
         voxel_size_is_known: format == Format::OpenVdb,
         format,
         grids: Vec::new(),
+        unread: Vec::new(),
+        read_for: wanted.clone(),
         skipped: Vec::new(),
         sources: Vec::new(),
         metadata: Metadata::default(),
@@ -242,6 +270,7 @@ fn merge(parts: Vec<FileVolume>) -> Volume {
     };
     for part in parts {
         volume.grids.extend(part.grids);
+        volume.unread.extend(part.unread);
         volume.skipped.extend(part.skipped);
         volume.sources.push(part.path);
         volume.notes.extend(part.notes);

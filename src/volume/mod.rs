@@ -17,6 +17,7 @@ mod load;
 mod naming;
 mod openvdb;
 mod openvdb_archive;
+mod openvdb_heads;
 mod openvdb_tree;
 mod preset;
 pub mod procedural;
@@ -26,6 +27,7 @@ mod report_binary;
 mod sniff;
 mod summary;
 mod text;
+mod wanted;
 mod watch;
 
 use std::path::PathBuf;
@@ -37,12 +39,13 @@ pub use field::{
 pub use grid::{Border, BrickRef, Grid};
 pub use lattice::{BRICK_EDGE, BRICK_LEN, IndexBox, brick_of};
 pub use limits::Limits;
-pub use load::{open, open_or_built_in, open_watched};
+pub use load::{open, open_or_built_in, open_wanted, open_watched};
 pub use naming::figures;
 pub use preset::{GLOW_K, PEAK_K, mapping, preset};
 pub use procedural::BuiltIn;
 pub use recognise::recognise;
 pub use summary::{GridSummary, MappedField, Summary, summarise};
+pub use wanted::{UnreadGrid, Wanted};
 pub use watch::Watch;
 
 /// A file format, told by the bytes.
@@ -98,8 +101,12 @@ pub struct Metadata {
 /// The fields of one moment of a fire, as they stand in their files.
 #[derive(Clone, Debug)]
 pub struct Volume {
-    /// The scalar grids, at most one of a name, in file order.
+    /// The scalar grids that were read, at most one of a name, in file order.
     pub grids: Vec<Grid>,
+    /// Scalar grids of the files that nobody has needed so far.
+    pub unread: Vec<UnreadGrid>,
+    /// What was wanted of the files.
+    pub read_for: Wanted,
     /// Grids of the files that are not used.
     pub skipped: Vec<SkippedGrid>,
     /// The files, in the order they were given.
@@ -121,6 +128,8 @@ impl Volume {
     pub fn from_grids(grids: Vec<Grid>, note: &str) -> Self {
         Self {
             grids,
+            unread: Vec::new(),
+            read_for: Wanted::everything(),
             skipped: Vec::new(),
             sources: Vec::new(),
             format: Format::Computed,

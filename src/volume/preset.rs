@@ -51,7 +51,7 @@ pub fn preset(producer: Producer, volume: &Volume) -> Preset {
         Producer::Auto => recognise(volume).producer,
         named => named,
     };
-    let cast = Cast::of(volume);
+    let cast = Cast::of_volume(volume);
     let mut assumed = Vec::new();
     let soot = soot(&cast, producer, &mut assumed);
     let mut maps = FieldMaps {

@@ -10,23 +10,22 @@ const FLAME: &[&str] = &["flame", "flames", "fire", "burn", "reaction", "heat"];
 const SOOT: &[&str] = &["soot", "fv", "f_v", "soot_volume_fraction"];
 const SMOKE: &[&str] = &["density", "smoke"];
 
-/// The grids that have a meaning. No grid stands for two fields here.
-pub(super) struct Cast<'a> {
-    pub temperature: Option<&'a Grid>,
-    pub flame: Option<&'a Grid>,
-    pub soot: Option<&'a Grid>,
-    pub smoke: Option<&'a Grid>,
+/// Which of some names have a meaning. No name stands for two fields here.
+#[derive(Clone, Copy)]
+pub(super) struct Roles<T> {
+    pub temperature: Option<T>,
+    pub flame: Option<T>,
+    pub soot: Option<T>,
+    pub smoke: Option<T>,
 }
 
-impl<'a> Cast<'a> {
-    pub(super) fn of(volume: &'a Volume) -> Self {
-        let find = |names: &[&str], not: Option<&Grid>| {
-            names.iter().find_map(|name| {
-                volume.grids.iter().find(|grid| {
-                    grid.name.eq_ignore_ascii_case(name)
-                        && !grid.bounds().is_empty()
-                        && not.is_none_or(|other| other.name != grid.name)
-                })
+impl<'n> Roles<&'n str> {
+    /// Among names in the order of their file.
+    pub(super) fn of(names: &[&'n str]) -> Self {
+        let find = |telling: &[&str], not: Option<&str>| {
+            telling.iter().find_map(|wanted| {
+                let mut names = names.iter().copied();
+                names.find(|name| name.eq_ignore_ascii_case(wanted) && not != Some(name))
             })
         };
         let temperature = find(TEMPERATURE, None);
@@ -35,6 +34,24 @@ impl<'a> Cast<'a> {
             flame: find(FLAME, temperature),
             soot: find(SOOT, None),
             smoke: find(SMOKE, None),
+        }
+    }
+}
+
+/// The grids that have a meaning: those that hold data.
+pub(super) type Cast<'a> = Roles<&'a Grid>;
+
+impl<'a> Cast<'a> {
+    pub(super) fn of_volume(volume: &'a Volume) -> Self {
+        let with_data = volume.grids.iter().filter(|grid| !grid.bounds().is_empty());
+        let names: Vec<&str> = with_data.map(|grid| grid.name.as_str()).collect();
+        let roles = Roles::of(&names);
+        let grid = |name: Option<&str>| name.and_then(|name| volume.grid(name));
+        Self {
+            temperature: grid(roles.temperature),
+            flame: grid(roles.flame),
+            soot: grid(roles.soot),
+            smoke: grid(roles.smoke),
         }
     }
 }
@@ -54,7 +71,7 @@ pub(super) fn is_fraction(grid: &Grid) -> bool {
 /// Guesses who wrote a volume: by its values where they are physical, then by what the file says of itself,
 /// then by the names of its grids.
 pub fn recognise(volume: &Volume) -> Recognised {
-    let cast = Cast::of(volume);
+    let cast = Cast::of_volume(volume);
     let glowing = cast.soot.or(cast.smoke);
     let kelvin = cast.temperature.filter(|grid| is_kelvin(grid));
     let fraction = glowing.filter(|grid| is_fraction(grid));
@@ -104,10 +121,8 @@ pub fn recognise(volume: &Volume) -> Recognised {
         }
     }
     let has = |name: &str| {
-        volume
-            .grids
-            .iter()
-            .any(|grid| grid.name.eq_ignore_ascii_case(name))
+        let mut names = volume.grid_names();
+        names.any(|other| other.eq_ignore_ascii_case(name))
     };
     if has("flames") {
         return answer(

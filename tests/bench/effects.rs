@@ -20,7 +20,7 @@ use std::time::Instant;
 use sootlight::project::Project;
 use sootlight::render::{Cancel, Plan, render_still};
 use sootlight::scene::Scene;
-use sootlight::volume::{self, BuiltIn, Limits, Volume};
+use sootlight::volume::{self, BuiltIn, Limits, Volume, Wanted};
 
 /// Pairs of runs.
 const PAIRS: usize = 9;
@@ -55,8 +55,12 @@ fn main() {
         ("pool fire", vec![file])
     });
     for (name, files) in flame.into_iter().chain(pool) {
-        let volume = match volume::open_or_built_in(&files, BuiltIn::default(), &Limits::default())
-        {
+        let volume = match volume::open_or_built_in(
+            &files,
+            BuiltIn::default(),
+            &Wanted::default(),
+            &Limits::default(),
+        ) {
             Ok(volume) => Arc::new(volume),
             Err(error) => {
                 println!("{name}: {error}");

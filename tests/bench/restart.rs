@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use sootlight::engine::{Engine, News, Picture};
 use sootlight::project::{Job, Project};
-use sootlight::volume::{self, BuiltIn, Limits, Volume};
+use sootlight::volume::{self, BuiltIn, Limits, Volume, Wanted};
 
 /// How many times the slider moves.
 const MOVES: u32 = 60;
@@ -48,7 +48,12 @@ fn main() {
         SIZE[0], SIZE[1]
     );
     for (name, files) in flame.into_iter().chain(shared) {
-        match volume::open_or_built_in(&files, BuiltIn::default(), &Limits::default()) {
+        match volume::open_or_built_in(
+            &files,
+            BuiltIn::default(),
+            &Wanted::default(),
+            &Limits::default(),
+        ) {
             Ok(volume) => {
                 let volume = Arc::new(volume);
                 for (what, sets) in SCENES {

@@ -237,3 +237,82 @@ fn the_first_full_picture_is_exposed_as_a_still_of_it() {
     assert_eq!(harness.state().view(), view);
     assert_ne!(view, still(&harness));
 }
+
+/// The names of the grids in memory.
+fn read(harness: &Harness<'_, App>) -> Vec<String> {
+    let volume = harness.state().document().volume().expect("a volume");
+    volume.grids.iter().map(|grid| grid.name.clone()).collect()
+}
+
+#[test]
+fn a_grid_is_read_once_something_needs_it_and_undo_knows_nothing_of_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("fire.vdb");
+    let grids = [
+        ("density", 0.4),
+        ("fuel", 0.7),
+        ("soot", 2e-6),
+        ("temperature", 1900.0),
+    ];
+    crate::common::write_vdb(&path, &grids);
+    let mut project = Project::default();
+    project.volume.path = vec![path.clone()];
+    project.set("effects.smoke=off").expect("a key");
+    let mut harness = controls::tall_window(project);
+    assert_eq!(read(&harness), ["soot", "temperature"]);
+    let before = harness.state().document().metering;
+
+    // An effect comes to need one.
+    harness.state_mut().document_mut().change(|document| {
+        document.project.set("effects.smoke=auto").expect("a key");
+    });
+    settle(&mut harness);
+    assert_eq!(read(&harness), ["density", "soot", "temperature"]);
+    assert!(controls::job(&harness).flame.maps.smoke.is_some());
+    assert_eq!(harness.state().document().metering, before);
+
+    // A person chooses another.
+    controls::choose(&mut harness, "Soot from", "fuel");
+    settle(&mut harness);
+    assert_eq!(read(&harness), ["density", "fuel", "soot", "temperature"]);
+    let soot = controls::job(&harness).flame.maps.soot.expect("soot");
+    assert_eq!(soot.grid, "fuel");
+
+    // What is taken back is what a person did; what was read stays.
+    for smoke_is_on in [true, false] {
+        harness.state_mut().document_mut().undo();
+        settle(&mut harness);
+        let job = controls::job(&harness);
+        assert_eq!(job.flame.maps.soot.expect("soot").grid, "soot");
+        assert_eq!(job.flame.smoke_left_out.is_none(), smoke_is_on);
+        assert_eq!(read(&harness).len(), 4);
+    }
+    assert!(!harness.state().document().can_undo());
+}
+
+#[test]
+fn a_grid_that_cannot_be_read_any_more_leaves_the_picture_and_says_why() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("fire.vdb");
+    crate::common::write_vdb(
+        &path,
+        &[("density", 2e-6), ("fuel", 0.7), ("temperature", 1900.0)],
+    );
+    let mut project = Project::default();
+    project.volume.path = vec![path.clone()];
+    let mut harness = controls::tall_window(project);
+    let before = controls::job(&harness);
+    std::fs::remove_file(&path).expect("the file was there");
+    controls::choose(&mut harness, "Soot from", "fuel");
+    let notice = settle_with_notice(&mut harness);
+    assert!(notice.contains("fire.vdb"), "{notice}");
+    let problem = harness.state().document().problem().expect("a problem");
+    assert!(
+        problem.contains("\"fuel\", which was not read"),
+        "{problem}"
+    );
+    assert_eq!(controls::job(&harness), before);
+    controls::choose(&mut harness, "Soot from", "density");
+    settle(&mut harness);
+    assert_eq!(harness.state().document().problem(), None);
+}

@@ -5,7 +5,9 @@
     reason = "a test fails by panicking"
 )]
 
+use super::request::{TOGETHER, open_partner};
 use super::*;
+use crate::volume::{self, BuiltIn, Limits, VolumeError, Wanted};
 
 #[test]
 fn a_path_may_be_quoted_or_an_address() {
@@ -84,8 +86,8 @@ fn every_kind_of_request_stops_when_told() {
     ));
     for request in [
         Request::BuiltIn(BuiltIn::Torch),
-        Request::Project(vec![file.clone()]),
-        Request::Files(vec![file.clone()]),
+        Request::Project(vec![file.clone()], Wanted::default()),
+        Request::Files(vec![file.clone()], Wanted::default()),
         Request::Partner(open, file),
     ] {
         let name = request.words();

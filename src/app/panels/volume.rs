@@ -112,11 +112,15 @@ fn field(ui: &mut Ui, project: &mut Project, job: &Job, kind: FieldKind) {
         (None, automatic, "As the producer's preset has it."),
         (Some(String::new()), "None".to_owned(), ""),
     ];
-    let named = job
-        .volume
-        .grids
-        .iter()
-        .map(|grid| (Some(grid.name.clone()), grid.name.clone(), ""));
+    let named = job.volume.grid_names().map(|name| {
+        let is_read = job.volume.grid(name).is_some();
+        let tip = if is_read {
+            ""
+        } else {
+            "Not read so far: nothing needed it."
+        };
+        (Some(name.to_owned()), name.to_owned(), tip)
+    });
     let options: Vec<_> = own.into_iter().chain(named).collect();
     Choice {
         label,

@@ -136,7 +136,8 @@ pub(super) fn figures(value: f64) -> String {
 
 impl Effects {
     /// The same, with what was automatic as it was decided: for the next frames of a sequence, in which nothing may come and
-    /// go, and for whoever looks closer at a picture.
+    /// go, and for whoever looks closer at a picture. Which smoke is packed is decided before a scene is made: a sequence
+    /// sets these in its project, before it asks for a job.
     #[must_use]
     pub fn as_decided(self, decisions: &[Decision]) -> Self {
         let locked = |effect: Effect| {
@@ -156,8 +157,7 @@ impl Effects {
             refraction: locked(Effect::Refraction),
             dispersion: locked(Effect::Dispersion),
             fire_light: locked(Effect::FireLight),
-            // What is packed is decided before.
-            smoke: self.smoke,
+            smoke: locked(Effect::Smoke),
             wavelengths: locked(Effect::Wavelengths),
         }
     }
