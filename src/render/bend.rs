@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::chord::{Chord, Run, Runs, cuts_of, known_cuts};
+use super::chord::{Bricks, Chord, Run, Runs, cuts_of, known_cuts};
 use super::eikonal::{Index, Path, Tolerance};
 use super::walk::for_each_stored;
 use crate::math::Ray;
@@ -59,10 +59,10 @@ pub(super) struct Bent {
 
 /// Follows a ray of the world, whose direction is a unit vector, and cuts it into steps of `step_m` metres, above 0. A
 /// step longer than the path is the path.
-pub(super) fn bend(around: Surroundings<'_>, ray: &Ray, step_m: f64) -> Bent {
+pub(super) fn bend(around: Surroundings<'_>, bricks: Bricks<'_>, ray: &Ray, step_m: f64) -> Bent {
     let way = follow(around, ray);
     Bent {
-        chord: cut(around.medium, &way.knots, step_m),
+        chord: cut(bricks, &way.knots, step_m),
         exit: way.exit,
         hit: way.hit,
     }
@@ -262,7 +262,8 @@ fn first_stored(medium: &Medium, local: &Ray, out_m: f64) -> Option<f64> {
 }
 
 /// Cuts a path into steps; `None` if it meets no stored brick.
-fn cut(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Chord> {
+fn cut(bricks: Bricks<'_>, knots: &[Knot], step_m: f64) -> Option<Chord> {
+    let medium = bricks.medium;
     let length_m = knots.last()?.arc_m;
     // A path that is whole steps long up to rounding has no extra sliver of a step.
     let steps = (length_m / step_m - 1e-9).ceil().max(1.0);
@@ -284,7 +285,7 @@ fn cut(medium: &Medium, knots: &[Knot], step_m: f64) -> Option<Chord> {
         .transform_vector3(knots[0].at.direction);
     let known = known_cuts(medium, along * step_m);
     let cuts_at = |position: [f64; 3]| {
-        stored(medium, position.map(|p| p as i32)).map_or(0, |slot| cuts_of(medium, known, slot))
+        stored(medium, position.map(|p| p as i32)).map_or(0, |slot| cuts_of(bricks, known, slot))
     };
     let mut middles = Vec::with_capacity(last as usize + 1);
     let mut begin_cuts = cuts_at(at(0.0));

@@ -39,10 +39,32 @@ pub(super) fn known_cuts(medium: &Medium, step: DVec3) -> &[u8] {
     }
 }
 
+/// The bricks that rays look into.
+#[derive(Clone, Copy)]
+pub(super) struct Bricks<'a> {
+    pub(super) medium: &'a Medium,
+    /// Stored bricks before this one.
+    before: u32,
+}
+
+impl<'a> Bricks<'a> {
+    /// All in which something can show; without `glow` of the gas, those with soot or smoke.
+    pub(super) fn new(medium: &'a Medium, glow: bool) -> Self {
+        let before = if glow { medium.shown } else { medium.sooty };
+        Self { medium, before }
+    }
+
+    /// Whether a ray looks into a brick.
+    #[inline(always)]
+    pub(super) fn has(self, slot: u32) -> bool {
+        slot < self.before
+    }
+}
+
 /// Into how many samples a step in a brick is cut, of what is known of all bricks; 0 where nothing shows.
 #[inline(always)]
-pub(super) fn cuts_of(medium: &Medium, cuts: &[u8], slot: u32) -> u32 {
-    if medium.shows(slot) {
+pub(super) fn cuts_of(bricks: Bricks<'_>, cuts: &[u8], slot: u32) -> u32 {
+    if bricks.has(slot) {
         cuts.get(slot as usize).map_or(1, |&cuts| u32::from(cuts))
     } else {
         0
@@ -70,12 +92,13 @@ impl Chord {
     /// soot. A step longer than the chord is the chord. Bricks are looked for between two distances beyond which there are
     /// none.
     pub(super) fn new(
-        medium: &Medium,
+        bricks: Bricks<'_>,
         ray: &Ray,
         step_m: f64,
         limit_m: f64,
         [near_m, far_m]: [f64; 2],
     ) -> Option<Self> {
+        let medium = bricks.medium;
         let (local, [enter, exit]) = medium.enter(ray)?;
         let exit = exit.min(limit_m);
         let length = exit - enter;
@@ -95,7 +118,7 @@ impl Chord {
             // Neighbours that are cut alike are one stretch.
             let (mut current, mut begin, mut end) = (0, 0.0, 0.0);
             for_each_brick(medium, &local, range, |stretch| {
-                let cuts = cuts_of(medium, cuts, stretch.slot);
+                let cuts = cuts_of(bricks, cuts, stretch.slot);
                 if cuts != current {
                     cutter.add(
                         [begin, stretch.from].map(|at| (at - enter) * per_m),
@@ -245,7 +268,7 @@ mod tests {
             let origin = if whole { origin.round() } else { origin };
             let Some(ray) = Ray::new(origin, direction.into()) else { return Ok(()) };
             let Some((local, [enter, exit])) = medium.enter(&ray) else { return Ok(()) };
-            let chord = Chord::new(&medium, &ray, step_m, f64::INFINITY, [0.0, f64::INFINITY]);
+            let chord = Chord::new(Bricks::new(&medium, true), &ray, step_m, f64::INFINITY, [0.0, f64::INFINITY]);
             let runs = chord.map_or(Runs::new(), |chord| chord.runs);
             let steps = ((exit - enter) / step_m - 1e-9).ceil().max(1.0) as u32;
             for step in 0..steps {
@@ -258,7 +281,7 @@ mod tests {
                         prop_assert!(run.is_some(), "step {step} of {steps} is skipped: {runs:?}");
                     }
                     if let Some(slot) = stored(&medium, at.to_array().map(|at| at as i32)) {
-                        let cuts = cuts_of(&medium, known_cuts(&medium, local.direction * step_m), slot);
+                        let cuts = cuts_of(Bricks::new(&medium, true), known_cuts(&medium, local.direction * step_m), slot);
                         let own = run.map_or(0, |run| run.cuts);
                         prop_assert!(own >= cuts, "step {step} is cut into {own}, not {cuts}");
                     }

@@ -10,8 +10,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use glam::{DVec3, UVec3};
 use rayon::prelude::*;
 
+use super::chord::Bricks;
 use crate::scene::camera::View;
-use crate::scene::medium::{BRICK, Medium};
+use crate::scene::medium::BRICK;
 
 /// Edge of a cell, pixels: that of a packet of rays.
 const CELL_PX: f64 = 4.0;
@@ -29,7 +30,8 @@ pub(super) struct Cover {
 
 impl Cover {
     /// Projects a medium, in the calling thread's rayon pool.
-    pub(super) fn new(medium: &Medium, view: &View, size: [u32; 2]) -> Self {
+    pub(super) fn new(bricks: Bricks<'_>, view: &View, size: [u32; 2]) -> Self {
+        let medium = bricks.medium;
         let cells = size.map(|side| (f64::from(side) / CELL_PX).ceil() as usize);
         let nothing = || [f32::INFINITY, 0.0].map(|distance| AtomicU32::new(distance.to_bits()));
         let cover = Self {
@@ -51,7 +53,7 @@ impl Cover {
         let layers = medium.table.par_chunks((width * height).max(1));
         layers.enumerate().for_each(|(z, layer)| {
             for (i, &slot) in layer.iter().enumerate() {
-                if !medium.shows(slot) {
+                if !bricks.has(slot) {
                     continue;
                 }
                 let brick = UVec3::new((i % width) as u32, (i / width) as u32, z as u32).as_dvec3();
@@ -156,7 +158,7 @@ mod tests {
             let camera = Camera { eye: eye.into(), target: target.into(), up: DVec3::Z, fov_deg };
             let size = [77, 50];
             let Ok(view) = camera.view(size) else { return Ok(()) };
-            let cover = Cover::new(&medium, &view, size);
+            let cover = Cover::new(Bricks::new(&medium, true), &view, size);
             for point in points {
                 let point = [point[0] * 77.0, point[1] * 50.0];
                 let ray = view.ray(point[0], point[1]);
@@ -182,7 +184,7 @@ mod tests {
             fov_deg: 60.0,
         };
         let view = camera.view([64, 64]).unwrap();
-        let cover = Cover::new(&medium, &view, [64, 64]);
+        let cover = Cover::new(Bricks::new(&medium, true), &view, [64, 64]);
         assert_eq!(cover.range([1.0, 1.0]), None);
         assert_eq!(cover.range([-1.0, 1.0]), Some([0.0, f64::INFINITY]));
         let [near, far] = cover.range([32.0, 32.0]).unwrap();

@@ -23,7 +23,7 @@ use crate::math::lanes::{LANES, Lanes};
 use crate::scene::Scene;
 use crate::scene::camera::{CameraError, View};
 
-use super::chord::Chord;
+use super::chord::{Bricks, Chord};
 use super::cover::Cover;
 use super::fields::Fields;
 use super::film::Pixel;
@@ -92,7 +92,7 @@ impl<'a> Marcher<'a> {
             tables: &plan.tables,
             fields,
             ways: Ways {
-                medium,
+                bricks: Bricks::new(medium, !plan.tables.features.is_empty()),
                 stage: &scene.stage,
                 screen: backdrop
                     .map(|backdrop| backdrop.facing(&scene.camera, size))
@@ -113,7 +113,7 @@ impl<'a> Marcher<'a> {
             .ways
             .bent
             .is_none()
-            .then(|| Cover::new(self.ways.medium, &self.view, self.tables.size));
+            .then(|| Cover::new(self.ways.bricks, &self.view, self.tables.size));
         self
     }
 
@@ -262,7 +262,7 @@ impl<'a> Marcher<'a> {
             return (!is_nothing).then(|| Light::none(self.tables.nodes.len()));
         }
         let march = March {
-            medium: self.ways.medium,
+            medium: self.ways.bricks.medium,
             tables: self.tables,
             scatter: self.fields.scatter.as_deref(),
             step_m: self.ways.step_m as f32,

@@ -1,10 +1,9 @@
 //! A ray's way: through the fire, and to what it meets behind.
 
 use super::bend::{Surroundings, bend, follow};
-use super::chord::Chord;
+use super::chord::{Bricks, Chord};
 use super::fields::Bent;
 use crate::math::Ray;
-use crate::scene::Medium;
 use crate::scene::stage::{Hit, Screen, Stage};
 
 /// What one ray passes.
@@ -27,7 +26,7 @@ pub(super) enum End {
 
 /// Finds ways through one scene.
 pub(super) struct Ways<'a> {
-    pub(super) medium: &'a Medium,
+    pub(super) bricks: Bricks<'a>,
     pub(super) stage: &'a Stage,
     pub(super) screen: Option<Screen>,
     pub(super) bent: Option<&'a Bent>,
@@ -53,7 +52,7 @@ impl Ways<'_> {
         let limit_m = hit.map_or(f64::INFINITY, |hit| hit.distance_m);
         Way {
             chord: range
-                .and_then(|range| Chord::new(self.medium, ray, self.step_m, limit_m, range)),
+                .and_then(|range| Chord::new(self.bricks, ray, self.step_m, limit_m, range)),
             end: match (hit, &self.screen) {
                 (Some(hit), _) => End::Surface(hit),
                 (None, Some(screen)) => End::Screen(screen.xyz(ray)),
@@ -64,11 +63,11 @@ impl Ways<'_> {
 
     fn bent(&self, ray: &Ray, bent: &Bent) -> Way {
         let around = |gas| Surroundings {
-            medium: self.medium,
+            medium: self.bricks.medium,
             gas,
             stage: self.stage,
         };
-        let main = bend(around(&bent.main), ray, self.step_m);
+        let main = bend(around(&bent.main), self.bricks, ray, self.step_m);
         let end = match (main.hit, &self.screen) {
             (Some(hit), _) => End::Surface(hit),
             (None, Some(screen)) => End::Screen(match &bent.others {

@@ -54,6 +54,8 @@ pub struct Medium {
     /// Edge of a voxel in metres: the cube root of its volume.
     pub(crate) voxel_size_m: f64,
     pub(crate) peaks: Peaks,
+    /// Stored bricks before this one hold soot or smoke.
+    pub(crate) sooty: u32,
     /// Stored bricks before this one show something; those from it on only bend light.
     pub(crate) shown: u32,
     /// Worked out when they are asked for first.

@@ -244,6 +244,7 @@ pub(super) fn empty() -> Medium {
         peaks: Peaks::default(),
         means: OnceLock::new(),
         cuts: OnceLock::new(),
+        sooty: 0,
         shown: 0,
     }
 }

@@ -1,7 +1,10 @@
 //! Which settings ask for which picture.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+use glam::{DAffine3, IVec3};
+
 use super::*;
-use crate::volume::procedural;
+use crate::render::{Cancel, Frame, render_still};
+use crate::volume::{Border, Grid, procedural};
 
 /// Whether a change of settings asks for another picture of the torch.
 fn asks_anew(before: &[&str], change: &str) -> bool {
@@ -136,4 +139,48 @@ fn a_field_is_packed_once_an_effect_reads_it_and_not_before() {
     let bricks = |scene: &Scene| scene.flame.medium().occupancy().0;
     let bent = medium(&["effects.refraction=on"], Some(&plain));
     assert!(bricks(&bent) > bricks(&plain));
+}
+
+#[test]
+fn bricks_in_which_gas_alone_glows_are_visited_only_for_its_light() {
+    let grid = |name: &str, inside: fn(i32) -> bool, value: f32| {
+        let of_voxel = move |voxel: IVec3| if inside(voxel.x) { value } else { 0.0 };
+        let dims = IVec3::new(64, 16, 16);
+        let world = DAffine3::from_scale(DVec3::splat(0.01));
+        Grid::from_fn(name, dims, world, Border::Background, 0.0, of_voxel)
+    };
+    let grids = vec![
+        grid("soot", |x| x < 20, 1e-7),
+        grid("flame", |x| x > 36, 1.0),
+        grid("temperature", |_| true, 1700.0),
+    ];
+    let volume = Arc::new(Volume::from_grids(grids, "two halves"));
+    for interpolation in ["trilinear", "tricubic"] {
+        let frame = |packed: &str, computed: Switch| {
+            let mut project = Project::default();
+            project.set("render.size=[48, 16]").unwrap();
+            let sets = [
+                format!("render.interpolation={interpolation}"),
+                format!("effects.chemiluminescence={packed}"),
+                "effects.scattering=off".to_owned(),
+            ];
+            project.set_all(sets.iter().map(String::as_str)).unwrap();
+            let mut job = project.job(&volume).unwrap();
+            let scene = job.scene(None);
+            job.settings.effects.chemiluminescence = computed;
+            render_still(&scene, &job.settings, &Cancel::never(), &|_| {}).unwrap()
+        };
+        let with = frame("on", Switch::On);
+        let without = frame("on", Switch::Off);
+        let alone = frame("off", Switch::Off);
+        assert!(with.samples > without.samples * 5 / 4, "{interpolation}");
+        // A smooth interpolation looks into what lies beside soot as well: of that the larger volume has more.
+        if interpolation == "trilinear" {
+            assert_eq!(without.samples, alone.samples);
+        }
+        // The lattice of the larger volume begins elsewhere, and with it the steps.
+        let light = |frame: &Frame| frame.film.pixels().iter().map(|it| it.xyz[1]).sum::<f32>();
+        let difference = light(&without) / light(&alone) - 1.0;
+        assert!(difference.abs() < 1e-3, "{interpolation}: {difference}");
+    }
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::render::chord::{Chord, Run};
+use crate::render::chord::{Bricks, Chord, Run};
 use crate::scene::Air;
 use crate::scene::flame::{Bending, Flame};
 use crate::scene::refractivity::tests::{Gas, VOXEL_M, ball, clear};
@@ -24,6 +24,7 @@ fn through(flame: &Flame, ray: &Ray) -> Bent {
             gas: &gas,
             stage: &Stage::default(),
         },
+        Bricks::new(flame.medium(), true),
         ray,
         0.5 * VOXEL_M,
     )
@@ -154,9 +155,11 @@ fn a_straight_path_is_cut_as_the_march_cuts_a_ray() {
         stage: &Stage::default(),
     };
     for step_m in [0.003, 0.01, 0.037, 5.0] {
-        let bent = bend(around, &ray, step_m).chord.unwrap();
+        let bent = bend(around, Bricks::new(around.medium, true), &ray, step_m)
+            .chord
+            .unwrap();
         let chord = Chord::new(
-            flame.medium(),
+            Bricks::new(flame.medium(), true),
             &ray,
             step_m,
             f64::INFINITY,
@@ -213,7 +216,9 @@ fn steps_lie_on_the_path_and_those_with_gas_are_in_runs() {
     };
     let way = follow(around, &ray);
     for step_m in [0.002, 0.013, 0.2] {
-        let chord = bend(around, &ray, step_m).chord.unwrap();
+        let chord = bend(around, Bricks::new(around.medium, true), &ray, step_m)
+            .chord
+            .unwrap();
         let world = medium.lattice_from_world.inverse();
         let points: Vec<DVec3> = chord
             .middles

@@ -16,10 +16,10 @@ impl Medium {
             .hot_above_k
             .map_or(f32::INFINITY, |kelvin| kelvin as f32);
         let bricks = self.samples.par_chunks_exact(BRICK_SAMPLES);
-        let parts: Vec<Option<Peaks>> = bricks
+        let parts: Vec<(Option<Peaks>, bool)> = bricks
             .enumerate()
             .map(|(i, samples)| {
-                let mut peaks = None;
+                let (mut peaks, mut is_sooty) = (None, false);
                 for (at, sample) in samples.iter().enumerate() {
                     let flame = self.flame_of(i * BRICK_SAMPLES + at);
                     if sample[0] > 0.0 || flame > 0.0 || sample[1] > hot_above_k {
@@ -27,29 +27,32 @@ impl Medium {
                             .get_or_insert_with(Peaks::default)
                             .note(*sample, flame);
                     }
+                    is_sooty |= sample[0] > 0.0;
                 }
-                peaks
+                (peaks, is_sooty)
             })
             .collect();
-        parts
-            .iter()
-            .flatten()
-            .for_each(|part| self.peaks.merge(part));
-        let mut shows: Vec<bool> = parts.iter().map(Option::is_some).collect();
+        let peaks = parts.iter().filter_map(|(peaks, _)| peaks.as_ref());
+        peaks.for_each(|part| self.peaks.merge(part));
+        let mut shows: Vec<bool> = parts.iter().map(|(peaks, _)| peaks.is_some()).collect();
+        let mut sooty: Vec<bool> = parts.iter().map(|(_, is_sooty)| *is_sooty).collect();
         if self.interpolation == Interpolation::Tricubic {
             shows = self.beside(packed, &shows);
+            sooty = self.beside(packed, &sooty);
         }
-        // Bricks that only bend light come after those in which something shows, which alone are marched through.
+        // Bricks in which only gas glows come after those with soot: a picture without that glow is marched through the
+        // latter alone. Bricks that only bend light come last, and are never marched through.
         let bends = gas
             .bends_above_k
             .map(|kelvin| self.bending(packed, kelvin as f32))
             .unwrap_or_default();
         let bends_only = |i: usize| !shows[i] && bends.get(i).is_some_and(|bends| *bends);
-        let shown = (0..packed.len()).filter(|&i| shows[i]);
-        self.shown = shown.clone().count() as u32;
-        let order: Vec<usize> = shown
-            .chain((0..packed.len()).filter(|&i| bends_only(i)))
-            .collect();
+        let all = || 0..packed.len();
+        let mut order: Vec<usize> = all().filter(|&i| sooty[i]).collect();
+        self.sooty = order.len() as u32;
+        order.extend(all().filter(|&i| shows[i] && !sooty[i]));
+        self.shown = order.len() as u32;
+        order.extend(all().filter(|&i| bends_only(i)));
         for (slot, &i) in (0_u32..).zip(&order) {
             let index = self.brick_index(packed[i]);
             self.table[index] = slot;
