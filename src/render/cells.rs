@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::lookup::lookup;
 use super::tables::Tables;
-use crate::math::lanes::{self, Kernel};
+use crate::math::lanes::{self, Arithmetic, Kernel};
 use crate::scene::glow::Source;
 use crate::scene::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK};
 use crate::scene::{Flame, Scene};
@@ -281,8 +281,8 @@ impl Mean<'_> {
 
     /// Adds what a point holds and emits, with the weight of a point.
     #[inline(always)]
-    fn add(&mut self, position: [f64; 3], weight: f32) -> bool {
-        let [all, kelvin, flame, smoke] = lookup::<true, true>(self.medium, position);
+    fn add<A: Arithmetic>(&mut self, position: [f64; 3], weight: f32) -> bool {
+        let [all, kelvin, flame, smoke] = lookup::<A, true, true>(self.medium, position);
         if all <= 0.0 && flame <= 0.0 {
             return false;
         }
@@ -292,7 +292,7 @@ impl Mean<'_> {
         for (i, colour) in self.colours.all.iter().enumerate() {
             let emission = match colour.emits {
                 Emits::Soot { scale, exponent_k } => {
-                    let planck = scale * lanes::inverse_exp_m1(exponent_k * inverse);
+                    let planck = scale * lanes::inverse_exp_m1_by::<A>(exponent_k * inverse);
                     colour.absorption * all * planck
                 }
                 Emits::Radicals(emission) => emission * flame,
@@ -313,7 +313,7 @@ impl Kernel for Mean<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn run(mut self) -> bool {
+    fn run<A: Arithmetic>(mut self) -> bool {
         let panels = (self.edge as usize).min(MOST_PANELS);
         let (count, panel) = (2 * panels, self.edge / panels as f64);
         let reach = 0.5 * panel / 3.0_f64.sqrt();
@@ -332,7 +332,7 @@ impl Kernel for Mean<'_> {
                 for &x in &xs[..count] {
                     let position = DVec3::new(x, y, z);
                     if position.cmpge(domain.min).all() && position.cmple(domain.max).all() {
-                        filled |= self.add([x, y, z], weight);
+                        filled |= self.add::<A>([x, y, z], weight);
                     }
                 }
             }

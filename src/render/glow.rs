@@ -14,7 +14,7 @@
 
 use super::growth::{FIT, GrowthFit, curve_of_growth_f32};
 use super::own_light::own_light;
-use crate::math::lanes::{self, LANES, Lanes};
+use crate::math::lanes::{self, Arithmetic, LANES, Lanes};
 use crate::physics::blackbody;
 use crate::scene::Flame;
 use crate::scene::glow::{Feature, Growth, Source, Spread, VAPOUR_K};
@@ -234,7 +234,7 @@ impl GlowLight {
     /// eye, less that of the place itself, which [`own_light`] finds for a reach of `reach_m`; both are read where
     /// `SCATTER` is.
     #[inline(always)]
-    pub(super) fn step<const SCATTER: bool>(
+    pub(super) fn step<A: Arithmetic, const SCATTER: bool>(
         &mut self,
         table: &GlowTable,
         step: &Step,
@@ -247,10 +247,10 @@ impl GlowLight {
             let (gathered, width) = (&mut self.block_depth[i], &mut self.width[i]);
             for lane in 0..LANES {
                 let inverse = step.inverse_temperature[lane];
-                let photons = lanes::inverse_exp_m1(feature.planck_exponent_k * inverse);
+                let photons = lanes::inverse_exp_m1_by::<A>(feature.planck_exponent_k * inverse);
                 let planck = feature.planck_scale * photons;
                 let lower = if feature.lower_k > 0.0 {
-                    lanes::exp(-feature.lower_k * inverse)
+                    lanes::exp_by::<A>(-feature.lower_k * inverse)
                 } else {
                     1.0
                 };
@@ -261,11 +261,11 @@ impl GlowLight {
                 let depth = feature
                     .dimming
                     .depth::<SCATTER>(step.column[lane], step.smoke[lane]);
-                let absorbed = -lanes::exp_m1(-depth);
+                let absorbed = -lanes::exp_m1_by::<A>(-depth);
                 transmittance[lane] -= transmittance[lane] * absorbed;
                 let grown = match feature.growth {
                     Growth::Line => curve_of_growth_f32(&table.growth, y),
-                    Growth::Box => -lanes::exp_m1(-y),
+                    Growth::Box => -lanes::exp_m1_by::<A>(-y),
                 } * transmittance[lane];
                 light[lane] += planck * (grown - width[lane]);
                 width[lane] = grown;
@@ -276,7 +276,7 @@ impl GlowLight {
             for lane in 0..LANES {
                 let (column, smoke) = (step.column[lane], step.smoke[lane]);
                 let tau = feature.dimming.depth::<SCATTER>(column, smoke);
-                let absorbed = -lanes::exp_m1(-tau);
+                let absorbed = -lanes::exp_m1_by::<A>(-tau);
                 // φ₁ → 1 where there is no soot.
                 let phi = if tau > 1e-12 { absorbed / tau } else { 1.0 };
                 let mut emitted = feature.emission * step.flame[lane] * step.length[lane];
@@ -293,7 +293,7 @@ impl GlowLight {
 
     /// Ends a block of steps: sums go to the totals, transmittances are taken afresh from the soot's column.
     #[inline(always)]
-    pub(super) fn flush<const SCATTER: bool>(
+    pub(super) fn flush<A: Arithmetic, const SCATTER: bool>(
         &mut self,
         table: &GlowTable,
         [column_m, smoke_m]: [&Lanes; 2],
@@ -303,7 +303,7 @@ impl GlowLight {
                 lanes::flush(&mut self.total[i][lane], &mut self.block[i][lane]);
                 lanes::flush(&mut self.depth[i][lane], &mut self.block_depth[i][lane]);
                 let depth = dimming.depth::<SCATTER>(column_m[lane], smoke_m[lane]);
-                self.transmittance[i][lane] = lanes::exp(-depth);
+                self.transmittance[i][lane] = lanes::exp_by::<A>(-depth);
             }
         }
     }

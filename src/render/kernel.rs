@@ -13,7 +13,7 @@ use super::own_light::own_light;
 use super::scatter::InScatter;
 use super::spans::{Packet, Walk};
 use super::tables::{Node, Tables};
-use crate::math::lanes::{self, Kernel, LANES, Lanes};
+use crate::math::lanes::{self, Arithmetic, Kernel, LANES, Lanes};
 use crate::scene::medium::Medium;
 
 /// Samples between two flushes of the block sums.
@@ -58,17 +58,36 @@ pub(super) struct March<'a> {
 impl March<'_> {
     /// Does it.
     pub(super) fn run(self) -> Light {
+        self.with(&Dispatched)
+    }
+
+    /// Chooses the loop and has it run.
+    fn with(self, way: &impl Way) -> Light {
         let glows = !self.tables.glow.is_empty();
         match (glows, self.scatter.is_some(), self.packet.is_bent) {
-            (false, false, false) => lanes::dispatch(Loop::<false, false, false>(self)),
-            (true, false, false) => lanes::dispatch(Loop::<true, false, false>(self)),
-            (false, true, false) => lanes::dispatch(Loop::<false, true, false>(self)),
-            (true, true, false) => lanes::dispatch(Loop::<true, true, false>(self)),
-            (false, false, true) => lanes::dispatch(Loop::<false, false, true>(self)),
-            (true, false, true) => lanes::dispatch(Loop::<true, false, true>(self)),
-            (false, true, true) => lanes::dispatch(Loop::<false, true, true>(self)),
-            (true, true, true) => lanes::dispatch(Loop::<true, true, true>(self)),
+            (false, false, false) => way.run(Loop::<false, false, false>(self)),
+            (true, false, false) => way.run(Loop::<true, false, false>(self)),
+            (false, true, false) => way.run(Loop::<false, true, false>(self)),
+            (true, true, false) => way.run(Loop::<true, true, false>(self)),
+            (false, false, true) => way.run(Loop::<false, false, true>(self)),
+            (true, false, true) => way.run(Loop::<true, false, true>(self)),
+            (false, true, true) => way.run(Loop::<false, true, true>(self)),
+            (true, true, true) => way.run(Loop::<true, true, true>(self)),
         }
+    }
+}
+
+/// How a loop is run.
+trait Way {
+    fn run<K: Kernel>(&self, kernel: K) -> K::Output;
+}
+
+/// With the best that this processor has.
+struct Dispatched;
+
+impl Way for Dispatched {
+    fn run<K: Kernel>(&self, kernel: K) -> K::Output {
+        lanes::dispatch(kernel)
     }
 }
 
@@ -81,7 +100,7 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
     type Output = Light;
 
     #[inline(always)]
-    fn run(self) -> Light {
+    fn run<A: Arithmetic>(self) -> Light {
         let Self(march) = self;
         let (nodes, glow_table) = (&march.tables.nodes[..], &march.tables.glow);
         let opaque = march.tables.opaque_column_m;
@@ -93,11 +112,17 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
         let mut block_radiance = vec![[0.0_f32; LANES]; nodes.len()];
         let mut block_column = [0.0_f32; LANES];
         let mut block_smoke = [0.0_f32; LANES];
+        // No step of such a node is deeper, whatever it meets: what a lane computes does not hang on its neighbours.
+        let deepest_m = march.step_m * march.medium.peak_volume_fraction();
+        let thin: Vec<bool> = nodes
+            .iter()
+            .map(|node| node.absorption * deepest_m <= lanes::THIN)
+            .collect();
         let mut walk = Walk::new(&march.packet, march.step_m);
         let mut since_flush = 0;
         loop {
             let (step, active) =
-                walk.next::<GAS, SCATTER, BEND>(march.medium, march.scatter, &mut around);
+                walk.next::<A, GAS, SCATTER, BEND>(march.medium, march.scatter, &mut around);
             if active == 0 {
                 break;
             }
@@ -107,9 +132,11 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
             let carried = transmittance.iter_mut().zip(&mut block_radiance);
             for (n, (node, (transmittance, radiance))) in nodes.iter().zip(carried).enumerate() {
                 if SCATTER {
-                    scattering_step(node, &step, reach_m, &around[n], transmittance, radiance);
+                    scattering_step::<A>(node, &step, reach_m, &around[n], transmittance, radiance);
+                } else if thin[n] {
+                    step_of::<A, true>(node, &step, transmittance, radiance);
                 } else {
-                    step_of(node, &step, transmittance, radiance);
+                    step_of::<A, false>(node, &step, transmittance, radiance);
                 }
             }
             for (block, column) in block_column.iter_mut().zip(&step.column) {
@@ -122,7 +149,7 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
             }
             if GAS {
                 let of_features = if SCATTER { &around[nodes.len()..] } else { &[] };
-                glow.step::<SCATTER>(glow_table, &step, reach_m, of_features);
+                glow.step::<A, SCATTER>(glow_table, &step, reach_m, of_features);
             }
 
             since_flush += 1;
@@ -148,11 +175,11 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
                         } else {
                             node.absorption * light.column_m[lane]
                         };
-                        transmittance[n][lane] = lanes::exp(-depth);
+                        transmittance[n][lane] = lanes::exp_by::<A>(-depth);
                     }
                 }
                 if GAS {
-                    glow.flush::<SCATTER>(glow_table, [&light.column_m, &light.smoke_m]);
+                    glow.flush::<A, SCATTER>(glow_table, [&light.column_m, &light.smoke_m]);
                 }
             }
         }
@@ -164,29 +191,39 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
             }
         }
         if GAS {
-            glow.flush::<SCATTER>(glow_table, [&light.column_m, &light.smoke_m]);
+            glow.flush::<A, SCATTER>(glow_table, [&light.column_m, &light.smoke_m]);
             light.glow = glow.total;
         }
         light
     }
 }
 
-/// A step of one wavelength without scattering: L += t B (1 − e^{−τ}).
+/// A step of one wavelength without scattering: L += t B (1 − e^{−τ}), where `THIN` tells that τ ≤ [`lanes::THIN`].
 #[inline(always)]
-fn step_of(node: &Node, step: &Step, transmittance: &mut Lanes, radiance: &mut Lanes) {
+fn step_of<A: Arithmetic, const THIN: bool>(
+    node: &Node,
+    step: &Step,
+    transmittance: &mut Lanes,
+    radiance: &mut Lanes,
+) {
     for lane in 0..LANES {
         let x = node.planck_exponent_k * step.inverse_temperature[lane];
-        let planck = node.planck_scale * lanes::inverse_exp_m1(x);
-        let absorbed = -lanes::exp_m1(-node.absorption * step.column[lane]);
-        let emitted = transmittance[lane] * absorbed;
-        radiance[lane] += planck * emitted;
+        let planck = node.planck_scale * lanes::inverse_exp_m1_by::<A>(x);
+        let minus_tau = -node.absorption * step.column[lane];
+        let lost = if THIN {
+            lanes::exp_m1_thin_by::<A>(minus_tau)
+        } else {
+            lanes::exp_m1_by::<A>(minus_tau)
+        };
+        let emitted = -transmittance[lane] * lost;
+        radiance[lane] = A::madd(planck, emitted, radiance[lane]);
         transmittance[lane] -= emitted;
     }
 }
 
 /// The same with scattering: L += t (σ_a B + σ_s J) Δs φ₁(τ), where τ is that of all extinction.
 #[inline(always)]
-fn scattering_step(
+fn scattering_step<A: Arithmetic>(
     node: &Node,
     step: &Step,
     reach_m: f32,
@@ -197,17 +234,39 @@ fn scattering_step(
     let [by_soot, by_smoke] = node.scattering;
     for lane in 0..LANES {
         let x = node.planck_exponent_k * step.inverse_temperature[lane];
-        let planck = node.planck_scale * lanes::inverse_exp_m1(x);
+        let planck = node.planck_scale * lanes::inverse_exp_m1_by::<A>(x);
         let (column, smoke) = (step.column[lane], step.smoke[lane]);
         let absorbing = node.absorption * column;
         let scattering = by_soot * (column - smoke) + by_smoke * smoke;
         let tau = absorbing + scattering;
-        let taken = -lanes::exp_m1(-tau);
+        let taken = -lanes::exp_m1_by::<A>(-tau);
         let phi = if tau > 1e-12 { taken / tau } else { 1.0 };
         let emitted = absorbing * planck;
         let own = own_light(emitted, tau, step.length[lane], reach_m);
         let source = emitted + scattering * (around[lane] + own).max(0.0);
         radiance[lane] += transmittance[lane] * source * phi;
         transmittance[lane] -= transmittance[lane] * taken;
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::math::lanes::Rounded;
+
+    /// As on a processor that has nothing of its own.
+    struct Anywhere;
+
+    impl Way for Anywhere {
+        fn run<K: Kernel>(&self, kernel: K) -> K::Output {
+            kernel.run::<Rounded>()
+        }
+    }
+
+    impl March<'_> {
+        /// Does the work as any processor can.
+        pub(in crate::render) fn run_anywhere(self) -> Light {
+            self.with(&Anywhere)
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The medium at a place, in single precision: what the march reads at each sample.
 
-use crate::math::lanes::LANES;
+use crate::math::lanes::{Arithmetic, LANES};
 use crate::scene::Interpolation;
 use crate::scene::interpolation::spline_fetches_f32;
 use crate::scene::medium::{BRICK, BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES, Sample};
@@ -29,7 +29,7 @@ const CLEAR: Found = [0.0, 300.0, 0.0, 0.0];
     clippy::needless_bitwise_bool,
     reason = "lanes side by side: a lazy operator would be a branch in each"
 )]
-pub(super) fn lookup_lanes<const GAS: bool, const SCATTER: bool>(
+pub(super) fn lookup_lanes<A: Arithmetic, const GAS: bool, const SCATTER: bool>(
     medium: &Medium,
     position: &[[f64; LANES]; 3],
     left: &[u32; LANES],
@@ -73,14 +73,14 @@ pub(super) fn lookup_lanes<const GAS: bool, const SCATTER: bool>(
                 if slot != NO_BRICK {
                     let first = slot as usize * BRICK_SAMPLES + local[lane] as usize;
                     let fraction = [0, 1, 2].map(|axis: usize| fraction[axis][lane]);
-                    found[lane] = between_corners::<GAS, SCATTER>(medium, first, fraction);
+                    found[lane] = between_corners::<A, GAS, SCATTER>(medium, first, fraction);
                 }
             }
         }
         Interpolation::Nearest | Interpolation::Tricubic => {
             for lane in 0..LANES {
                 if left[lane] > 0 {
-                    found[lane] = lookup::<GAS, SCATTER>(
+                    found[lane] = lookup::<A, GAS, SCATTER>(
                         medium,
                         [0, 1, 2].map(|axis: usize| position[axis][lane]),
                     );
@@ -93,7 +93,7 @@ pub(super) fn lookup_lanes<const GAS: bool, const SCATTER: bool>(
 
 /// The medium at one lattice position.
 #[inline(always)]
-pub(super) fn lookup<const GAS: bool, const SCATTER: bool>(
+pub(super) fn lookup<A: Arithmetic, const GAS: bool, const SCATTER: bool>(
     medium: &Medium,
     position: [f64; 3],
 ) -> Found {
@@ -102,20 +102,23 @@ pub(super) fn lookup<const GAS: bool, const SCATTER: bool>(
             let voxel: [i32; 3] = position.map(|p| p as i32);
             let fraction =
                 std::array::from_fn(|axis| (position[axis] - f64::from(voxel[axis])) as f32);
-            cell::<GAS, SCATTER>(medium, voxel, fraction)
+            cell::<A, GAS, SCATTER>(medium, voxel, fraction)
         }
         Interpolation::Nearest => {
             let voxel: [i32; 3] = position.map(|p| p as i32);
             let upper = std::array::from_fn(|axis| position[axis] - f64::from(voxel[axis]) >= 0.5);
             corner::<GAS, SCATTER>(medium, voxel, upper)
         }
-        Interpolation::Tricubic => tricubic::<GAS, SCATTER>(medium, position),
+        Interpolation::Tricubic => tricubic::<A, GAS, SCATTER>(medium, position),
     }
 }
 
 /// The B-spline by eight linear fetches.
 #[inline(never)]
-fn tricubic<const GAS: bool, const SCATTER: bool>(medium: &Medium, position: [f64; 3]) -> Found {
+fn tricubic<A: Arithmetic, const GAS: bool, const SCATTER: bool>(
+    medium: &Medium,
+    position: [f64; 3],
+) -> Found {
     let base: [i32; 3] = position.map(|p| p.floor() as i32);
     let fetches: [[(f32, f32); 2]; 3] = std::array::from_fn(|axis| {
         spline_fetches_f32((position[axis] - f64::from(base[axis])) as f32)
@@ -132,9 +135,9 @@ fn tricubic<const GAS: bool, const SCATTER: bool>(medium: &Medium, position: [f6
     for (z, fz, wz) in cells[2] {
         for (y, fy, wy) in cells[1] {
             for (x, fx, wx) in cells[0] {
-                let found = cell::<GAS, SCATTER>(medium, [x, y, z], [fx, fy, fz]);
+                let found = cell::<A, GAS, SCATTER>(medium, [x, y, z], [fx, fy, fz]);
                 let weight = wx * wy * wz;
-                sum = std::array::from_fn(|c| sum[c] + weight * found[c]);
+                sum = std::array::from_fn(|c| A::madd(weight, found[c], sum[c]));
             }
         }
     }
@@ -143,19 +146,19 @@ fn tricubic<const GAS: bool, const SCATTER: bool>(medium: &Medium, position: [f6
 
 /// Between the eight corners of a voxel's cell, trilinear; clear air where no brick is.
 #[inline(always)]
-fn cell<const GAS: bool, const SCATTER: bool>(
+fn cell<A: Arithmetic, const GAS: bool, const SCATTER: bool>(
     medium: &Medium,
     voxel: [i32; 3],
     fraction: [f32; 3],
 ) -> Found {
     first_corner(medium, voxel).map_or(CLEAR, |first| {
-        between_corners::<GAS, SCATTER>(medium, first, fraction)
+        between_corners::<A, GAS, SCATTER>(medium, first, fraction)
     })
 }
 
 /// Between the eight corners of a cell whose lowest is stored at `first`.
 #[inline(always)]
-fn between_corners<const GAS: bool, const SCATTER: bool>(
+fn between_corners<A: Arithmetic, const GAS: bool, const SCATTER: bool>(
     medium: &Medium,
     first: usize,
     fraction: [f32; 3],
@@ -169,27 +172,27 @@ fn between_corners<const GAS: bool, const SCATTER: bool>(
         let [a, b] = [corners[at], corners[at + 1]];
         [a[0], a[1], b[0], b[1]]
     };
-    let near = between(pair(0, 0), pair(1, 0), fraction[1]);
-    let far = between(pair(0, 1), pair(1, 1), fraction[1]);
-    let [soot_low, hot_low, soot_high, hot_high] = between(near, far, fraction[2]);
+    let near = between::<A, _>(pair(0, 0), pair(1, 0), fraction[1]);
+    let far = between::<A, _>(pair(0, 1), pair(1, 1), fraction[1]);
+    let [soot_low, hot_low, soot_high, hot_high] = between::<A, _>(near, far, fraction[2]);
     // A field of its own: two neighbours in x at a time.
     let beside = |field: &[f32]| -> f32 {
         let pair = |dy: usize, dz: usize| -> [f32; 2] {
             let at = row(dy, dz);
             [field[at], field[at + 1]]
         };
-        let near = between(pair(0, 0), pair(1, 0), fraction[1]);
-        let far = between(pair(0, 1), pair(1, 1), fraction[1]);
-        let [low, high] = between(near, far, fraction[2]);
-        low + fraction[0] * (high - low)
+        let near = between::<A, _>(pair(0, 0), pair(1, 0), fraction[1]);
+        let far = between::<A, _>(pair(0, 1), pair(1, 1), fraction[1]);
+        let [low, high] = between::<A, _>(near, far, fraction[2]);
+        A::madd(fraction[0], high - low, low)
     };
     let has = [
         GAS && !medium.flame.is_empty(),
         SCATTER && !medium.smoke.is_empty(),
     ];
     [
-        soot_low + fraction[0] * (soot_high - soot_low),
-        hot_low + fraction[0] * (hot_high - hot_low),
+        A::madd(fraction[0], soot_high - soot_low, soot_low),
+        A::madd(fraction[0], hot_high - hot_low, hot_low),
         if has[0] { beside(&medium.flame) } else { 0.0 },
         if has[1] { beside(&medium.smoke) } else { 0.0 },
     ]
@@ -236,8 +239,8 @@ fn first_corner(medium: &Medium, voxel: [i32; 3]) -> Option<usize> {
 }
 
 #[inline(always)]
-fn between<const N: usize>(a: [f32; N], b: [f32; N], f: f32) -> [f32; N] {
-    std::array::from_fn(|i| a[i] + f * (b[i] - a[i]))
+fn between<A: Arithmetic, const N: usize>(a: [f32; N], b: [f32; N], f: f32) -> [f32; N] {
+    std::array::from_fn(|i| A::madd(f, b[i] - a[i], a[i]))
 }
 
 #[cfg(test)]

@@ -261,13 +261,83 @@ impl<'a> Marcher<'a> {
             let is_nothing = ways.iter().flatten().all(is_dark);
             return (!is_nothing).then(|| Light::none(self.tables.nodes.len()));
         }
-        let march = March {
+        Some(self.loop_over(chords).run())
+    }
+
+    fn loop_over<'c>(&'c self, chords: [Option<&'c Chord>; LANES]) -> March<'c> {
+        March {
             medium: self.ways.bricks.medium,
             tables: self.tables,
             scatter: self.fields.scatter.as_deref(),
             step_m: self.ways.step_m as f32,
             packet: Packet::new(chords),
-        };
-        Some(march.run())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::project::Project;
+    use crate::volume::procedural;
+
+    #[test]
+    fn every_processor_renders_the_same_picture() {
+        let volume = Arc::new(procedural::torch());
+        let mut compared = 0;
+        for effects in [
+            &["effects.scattering=off", "effects.refraction=off"][..],
+            &[
+                "effects.scattering=on",
+                "fuel.salt=copper-chloride",
+                "effects.lines=on",
+            ],
+            &[
+                "effects.refraction=on",
+                "effects.chemiluminescence=on",
+                "volume.flame.grid=soot",
+            ],
+        ] {
+            let mut project = Project::default();
+            project.set("render.size=[24, 24]").unwrap();
+            project.set_all(effects.iter().copied()).unwrap();
+            let job = project.job(&volume).unwrap();
+            let scene = job.scene(None);
+            let plan = Plan::new(&scene, &job.settings);
+            let marcher = Marcher::new(&scene, &plan, 1.0).unwrap();
+            let mut pairs = Vec::new();
+            for row in 0..24 {
+                // Of sixteen rays in a row, on both sides of the flame's middle.
+                let ways: [Option<Way>; LANES] = std::array::from_fn(|lane| {
+                    let point = [4.0 + lane as f64, f64::from(row) + 0.5];
+                    let ray = marcher.view.ray(point[0], point[1]);
+                    Some(marcher.ways.of(&ray, EVERYWHERE))
+                });
+                let chords = std::array::from_fn(|lane| ways[lane].as_ref()?.chord.as_ref());
+                let here = marcher.loop_over(chords).run();
+                let anywhere = marcher.loop_over(chords).run_anywhere();
+                assert_eq!(here.samples, anywhere.samples);
+                let soot = here.radiance.iter().zip(&anywhere.radiance);
+                let lights = soot.chain(here.glow.iter().zip(&anywhere.glow));
+                pairs.extend(lights.map(|(here, anywhere)| (*here, *anywhere)));
+            }
+            let channels = pairs.len() / 24;
+            for channel in 0..channels {
+                let pairs = pairs.iter().skip(channel).step_by(channels);
+                let pairs = pairs.flat_map(|(here, anywhere)| here.iter().zip(anywhere));
+                let brightest = pairs.clone().fold(0.0_f32, |most, (_, it)| most.max(*it));
+                // Of what is nearly dark, Planck's exponential makes much of the last bit of a temperature.
+                for (here, anywhere) in pairs.filter(|(_, it)| **it > 0.0) {
+                    let off = (here - anywhere).abs();
+                    let few = 1e-5 * anywhere + 2e-8 * brightest;
+                    assert!(off <= few, "{here} {anywhere} of {brightest}");
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 1000, "{compared}");
     }
 }

@@ -4,7 +4,7 @@ use super::chord::{Chord, Run};
 use super::glow::Step;
 use super::lookup::lookup_lanes;
 use super::scatter::InScatter;
-use crate::math::lanes::{LANES, Lanes};
+use crate::math::lanes::{Arithmetic, LANES, Lanes};
 use crate::scene::medium::Medium;
 
 /// Rays side by side.
@@ -104,7 +104,7 @@ impl<'a> Walk<'a> {
 
     /// Each ray takes its next sample; those that are through take an empty one. Also how many took one.
     #[inline(always)]
-    pub(super) fn next<const GAS: bool, const SCATTER: bool, const BEND: bool>(
+    pub(super) fn next<A: Arithmetic, const GAS: bool, const SCATTER: bool, const BEND: bool>(
         &mut self,
         medium: &Medium,
         scatter: Option<&InScatter>,
@@ -126,7 +126,7 @@ impl<'a> Walk<'a> {
                 }
             }
         }
-        let found = lookup_lanes::<GAS, SCATTER>(medium, &position, &self.left);
+        let found = lookup_lanes::<A, GAS, SCATTER>(medium, &position, &self.left);
         let length: Lanes = std::array::from_fn(|lane| self.step_m * self.share[lane]);
         let mut taken = Step {
             column: std::array::from_fn(|lane| found[lane][0] * length[lane]),

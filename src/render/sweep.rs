@@ -20,7 +20,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::cells::{Cells, Chunk, WIDE};
-use crate::math::lanes::{self, Kernel};
+use crate::math::lanes::{self, Arithmetic, Kernel};
 
 /// Depth below which φ₁ is 1 to the last bit of an f32.
 const CLEAR_DEPTH: f32 = 1e-12;
@@ -194,7 +194,7 @@ impl Kernel for Row<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<A: Arithmetic>(self) {
         let sweep = self.sweep;
         let (cells, chunks) = (sweep.cells, sweep.cells.chunks);
         let strides = cells.strides();

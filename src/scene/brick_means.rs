@@ -24,7 +24,7 @@ use rayon::prelude::*;
 
 use super::means::{Lamp, MEANS, MEANS_NM, Means, PART_EDGE, PARTS, PartMean};
 use super::medium::{BRICK_SAMPLES, Medium, NO_BRICK, SAMPLES};
-use crate::math::lanes::{self, Kernel};
+use crate::math::lanes::{self, Arithmetic, Kernel};
 use crate::physics::blackbody;
 
 /// Most blocks between which light is summed up.
@@ -114,7 +114,7 @@ impl Kernel for Glowing<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<A: Arithmetic>(self) {
         for (glow, nm) in self.glows.iter_mut().zip(*MEANS_NM) {
             let exponent = (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32;
             for (glow, [fraction, kelvin]) in glow.iter_mut().zip(self.samples) {

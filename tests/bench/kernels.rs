@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 use sootlight::math::Ray;
-use sootlight::math::lanes::{self, Kernel, LANES, Lanes};
+use sootlight::math::lanes::{self, Arithmetic, Kernel, LANES, Lanes};
 use sootlight::render::tables::{MAX_NODES, Tables};
 use sootlight::scene::Scene;
 
@@ -21,7 +21,7 @@ const EDGE: usize = 9;
 
 /// One step of all wavelengths: L += t B (1 − e^{−τ}).
 #[inline(always)]
-fn light_step(
+fn light_step<A: Arithmetic>(
     tables: &Tables,
     column: &Lanes,
     inverse_temperature: &Lanes,
@@ -32,8 +32,9 @@ fn light_step(
         let (transmittance, radiance) = (&mut transmittance[n], &mut radiance[n]);
         for lane in 0..LANES {
             let x = node.planck_exponent_k * inverse_temperature[lane];
-            let planck = node.planck_scale * lanes::inverse_exp_m1(x);
-            let emitted = transmittance[lane] * -lanes::exp_m1(-node.absorption * column[lane]);
+            let planck = node.planck_scale * lanes::inverse_exp_m1_by::<A>(x);
+            let emitted =
+                transmittance[lane] * -lanes::exp_m1_by::<A>(-node.absorption * column[lane]);
             radiance[lane] += planck * emitted;
             transmittance[lane] -= emitted;
         }
@@ -42,9 +43,14 @@ fn light_step(
 
 /// Between eight samples, trilinear: the one at `first` and its upper neighbours in a box `x`, `y` wide.
 #[inline(always)]
-fn fetch(samples: &[[f32; 2]], first: usize, [x, y]: [usize; 2], fraction: [f32; 3]) -> [f32; 2] {
+fn fetch<A: Arithmetic>(
+    samples: &[[f32; 2]],
+    first: usize,
+    [x, y]: [usize; 2],
+    fraction: [f32; 3],
+) -> [f32; 2] {
     let between = |a: [f32; 4], b: [f32; 4], f: f32| -> [f32; 4] {
-        std::array::from_fn(|i| a[i] + f * (b[i] - a[i]))
+        std::array::from_fn(|i| A::madd(f, b[i] - a[i], a[i]))
     };
     let pair = |row: usize| -> [f32; 4] {
         let pair = &samples[first + row..first + row + 2];
@@ -54,8 +60,8 @@ fn fetch(samples: &[[f32; 2]], first: usize, [x, y]: [usize; 2], fraction: [f32;
     let far = between(pair(x * y), pair(x * y + x), fraction[1]);
     let [soot, hot, soot_high, hot_high] = between(near, far, fraction[2]);
     [
-        soot + fraction[0] * (soot_high - soot),
-        hot + fraction[0] * (hot_high - hot),
+        A::madd(fraction[0], soot_high - soot, soot),
+        A::madd(fraction[0], hot_high - hot, hot),
     ]
 }
 
@@ -159,7 +165,7 @@ impl Kernel for Packet<'_> {
     type Output = [Lanes; MAX_NODES];
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<A: Arithmetic>(self) -> Self::Output {
         let (medium, size) = (self.scene.flame.medium(), self.dense.size);
         let mut radiance = [[0.0; LANES]; MAX_NODES];
         let mut transmittance = [[1.0; LANES]; MAX_NODES];
@@ -195,11 +201,11 @@ impl Kernel for Packet<'_> {
                 let fraction = std::array::from_fn(|axis| (at[axis] - voxel[axis] as f64) as f32);
                 let first = (voxel[2] * size[1] + voxel[1]) * size[0] + voxel[0];
                 let [soot, kelvin] =
-                    fetch(&self.dense.samples, first, [size[0], size[1]], fraction);
+                    fetch::<A>(&self.dense.samples, first, [size[0], size[1]], fraction);
                 column[lane] = soot * (step_m * share) as f32;
                 inverse_temperature[lane] = 1.0 / kelvin.max(1.0);
             }
-            light_step(
+            light_step::<A>(
                 self.tables,
                 &column,
                 &inverse_temperature,
@@ -245,7 +251,7 @@ impl Kernel for Chunk<'_> {
     type Output = [Lanes; MAX_NODES];
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<A: Arithmetic>(self) -> Self::Output {
         let Self(Limit { tables, brick }) = self;
         let mut radiance = [[0.0; LANES]; MAX_NODES];
         let mut transmittance = [[1.0; LANES]; MAX_NODES];
@@ -258,11 +264,11 @@ impl Kernel for Chunk<'_> {
                 let voxel = [number & 7, number >> 3 & 7, number >> 6 & 7];
                 let fraction = voxel.map(|at| 0.1 * at as f32);
                 let first = (voxel[2] * EDGE + voxel[1]) * EDGE + voxel[0];
-                let [soot, kelvin] = fetch(brick, first, [EDGE; 2], fraction);
+                let [soot, kelvin] = fetch::<A>(brick, first, [EDGE; 2], fraction);
                 column[lane] = 0.01 * soot;
                 inverse_temperature[lane] = 1.0 / kelvin;
             }
-            light_step(
+            light_step::<A>(
                 tables,
                 &column,
                 &inverse_temperature,

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::channels::{BLOCK, Block, Channels};
 use crate::math::Aabb;
-use crate::math::lanes::{self, Kernel};
+use crate::math::lanes::{self, Arithmetic, Kernel, Rounded};
 use crate::render::Cancel;
 use crate::render::lookup::lookup;
 use crate::scene::medium::{BRICK, Medium};
@@ -195,7 +195,7 @@ impl Kernel for Sum<'_> {
     type Output = Part;
 
     #[inline(always)]
-    fn run(self) -> Part {
+    fn run<A: Arithmetic>(self) -> Part {
         let cells = self.fineness.cells;
         let mut part = Part::default();
         for cell in 0..cells * cells * cells {
@@ -287,7 +287,7 @@ impl Sum<'_> {
         let (mut dense, mut dense_where_bright) = ([0.0_f32; 2], [0.0_f32; 2]);
         let (mut weight, mut moment, mut square) = (0.0_f32, Vec3::ZERO, 0.0_f32);
         for (position, share) in points {
-            let found = lookup::<true, true>(medium, position.to_array());
+            let found = lookup::<Rounded, true, true>(medium, position.to_array());
             if found[0] <= 0.0 && found[2] <= 0.0 && channels.thermal.is_empty() {
                 continue;
             }

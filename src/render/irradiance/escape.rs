@@ -28,7 +28,7 @@ use super::channels::{BLOCK, Block, Channels};
 use super::directions::Directions;
 use super::transmittance::{Way, mean_over_step};
 use super::tree::Tree;
-use crate::math::lanes::{self, Kernel};
+use crate::math::lanes::{self, Arithmetic, Kernel};
 use crate::math::{Aabb, Ray};
 use crate::render::Cancel;
 use crate::render::growth::{FIT, curve_of_growth_f32};
@@ -187,7 +187,7 @@ impl Kernel for Follow<'_> {
     type Output = Sums;
 
     #[inline(always)]
-    fn run(self) -> Sums {
+    fn run<A: Arithmetic>(self) -> Sums {
         let blocks = self.channels.blocks();
         let mut sums = Sums {
             out: vec![[0.0; BLOCK]; self.tree.tables * blocks],

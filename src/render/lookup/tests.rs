@@ -3,6 +3,7 @@ use glam::{DAffine3, DVec3, IVec3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::math::lanes::Rounded;
 use crate::volume::{Border, FieldMap, FieldMaps, Grid, Volume};
 
 /// Voxels along an edge: no multiple of a brick's.
@@ -162,9 +163,9 @@ proptest! {
             let lanes = position.to_array().map(|at| [at; LANES]);
             let mut left = [1; LANES];
             left[1] = 0;
-            let [single, none, ..] = lookup_lanes::<true, true>(&medium, &lanes, &left);
+            let [single, none, ..] = lookup_lanes::<Rounded, true, true>(&medium, &lanes, &left);
             prop_assert_eq!(none, CLEAR);
-            prop_assert_eq!(single, lookup::<true, true>(&medium, position.to_array()));
+            prop_assert_eq!(single, lookup::<Rounded, true, true>(&medium, position.to_array()));
             for c in 0..4 {
                 let scale = high[c].max(1e-12);
                 let found = f64::from(single[c]);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::math::lanes::{self, Kernel};
+use crate::math::lanes::{self, Arithmetic, Kernel};
 use crate::render::cells::{Cells, Chunk, Colours, WIDE};
 use crate::render::sweep::Sweep;
 use crate::scene::Scene;
@@ -206,7 +206,7 @@ impl Kernel for Take<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<A: Arithmetic>(self) {
         let chunks = self.own.len() / self.sum.len().max(1);
         for (i, &to_eye) in self.to_eye.iter().enumerate() {
             if to_eye == [0.0; 3] {
@@ -245,7 +245,7 @@ impl Kernel for Normalise<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<A: Arithmetic>(self) {
         for (chunk, light) in self.light.iter_mut().enumerate() {
             let mut sum = [0.0; WIDE];
             for &direction in self.directions {

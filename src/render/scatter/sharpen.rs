@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 
 use super::gathered::Gathered;
-use crate::math::lanes::{self, Kernel};
+use crate::math::lanes::{self, Arithmetic, Kernel};
 use crate::render::cells::{Cells, Chunk, WIDE};
 use crate::render::own_light::own_light;
 
@@ -71,7 +71,7 @@ impl Kernel for Layer<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<A: Arithmetic>(self) {
         let (size, chunks) = (self.cells.size, self.cells.chunks);
         let (strides, to_eye) = (self.cells.strides(), &self.gathered.to_eye);
         let inner = [1, size[0], size[0] * size[1]];
