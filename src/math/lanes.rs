@@ -31,10 +31,26 @@ const ROUNDER: f32 = 12582912.0;
 /// Valid for x ≤ 88. NaN gives NaN.
 #[inline(always)]
 pub fn exp_m1(x: f32) -> f32 {
-    let clamped = if x < EXP_UNDERFLOW { EXP_UNDERFLOW } else { x };
-    let shifted = clamped * std::f32::consts::LOG2_E + ROUNDER;
+    exp_m1_within(if x < EXP_UNDERFLOW { EXP_UNDERFLOW } else { x })
+}
+
+/// 1/(e^x − 1) for x ≥ 0, relative error below 3e-7 + x·6e-8: Planck's law without its scale. Exactly 0 where e^{−x} is.
+///
+/// Not e^{−x}/(1 − e^{−x}), of which a small x leaves no digits. 1 − e^{−x} is one over this plus 1.
+#[inline(always)]
+pub fn inverse_exp_m1(x: f32) -> f32 {
+    let is_beyond = x > -EXP_UNDERFLOW;
+    let beyond_one = exp_m1_within(if is_beyond { -EXP_UNDERFLOW } else { x });
+    // Chosen before the division: after it, a branch around the division would keep the loop from being vectorised.
+    1.0 / if is_beyond { f32::INFINITY } else { beyond_one }
+}
+
+/// [`exp_m1`] between [`EXP_UNDERFLOW`] and 88.
+#[inline(always)]
+fn exp_m1_within(x: f32) -> f32 {
+    let shifted = x * std::f32::consts::LOG2_E + ROUNDER;
     let n = shifted - ROUNDER;
-    let r = (clamped - n * LN_2_HIGH) - n * LN_2_LOW;
+    let r = (x - n * LN_2_HIGH) - n * LN_2_LOW;
     let tail = 1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0 + r * (1.0 / 5040.0)));
     let p = r + r * r * (0.5 + r * (1.0 / 6.0 + r * tail));
     let power = f32::from_bits((shifted.to_bits() << 23).wrapping_add(0x3f80_0000));
@@ -52,6 +68,15 @@ pub fn exp(x: f32) -> f32 {
     let p = 1.0 + r * (1.0 + r * (0.5 + r * (1.0 / 6.0 + r * tail)));
     let power = f32::from_bits((shifted.to_bits() << 23).wrapping_add(0x3f80_0000));
     if x < EXP_UNDERFLOW { 0.0 } else { power * p }
+}
+
+/// Adds a block to its total and leaves in it what that rounded off: of terms that are all alike the losses are as well,
+/// and would add up (W. Kahan, Commun. ACM 8 (1965) 40).
+#[inline(always)]
+pub fn flush(total: &mut f32, block: &mut f32) {
+    let sum = *total + *block;
+    *block -= sum - *total;
+    *total = sum;
 }
 
 /// A computation over lanes. Its `run` must be `#[inline(always)]`, down to the loops, so that each instance is
@@ -130,6 +155,40 @@ mod tests {
         assert_eq!(exp_m1(f32::NEG_INFINITY), -1.0);
         assert_eq!(exp_m1(0.0), 0.0);
         assert_eq!(exp_m1(-1e-38), -1e-38);
+    }
+
+    #[test]
+    fn the_inverse_holds_its_relative_error_from_zero_to_where_it_vanishes() {
+        for x in points().map(f32::abs) {
+            let exact = 1.0 / f64::from(x).exp_m1();
+            let error = (f64::from(inverse_exp_m1(x)) - exact).abs();
+            if x <= -EXP_UNDERFLOW {
+                let bound = 3e-7 + f64::from(x) * 6e-8;
+                assert!(
+                    error <= bound * exact,
+                    "x = {x}: off by {:e}",
+                    error / exact
+                );
+            } else {
+                assert_eq!(inverse_exp_m1(x), 0.0);
+            }
+        }
+        assert_eq!(inverse_exp_m1(f32::INFINITY), 0.0);
+        assert_eq!(inverse_exp_m1(0.0), f32::INFINITY);
+    }
+
+    #[test]
+    fn a_million_equal_terms_add_up_in_blocks() {
+        let (mut total, mut block) = (0.0_f32, 0.0_f32);
+        for _ in 0..1 << 16 {
+            for _ in 0..16 {
+                block += 1e-12;
+            }
+            flush(&mut total, &mut block);
+        }
+        let exact = f64::from(1e-12_f32) * f64::from(1 << 20);
+        let error = (f64::from(total) / exact - 1.0).abs();
+        assert!(error < 5e-7, "off by {error:e}");
     }
 
     struct Sum(Lanes);

@@ -292,8 +292,8 @@ impl Mean<'_> {
         for (i, colour) in self.colours.all.iter().enumerate() {
             let emission = match colour.emits {
                 Emits::Soot { scale, exponent_k } => {
-                    let wien = lanes::exp(-exponent_k * inverse);
-                    colour.absorption * all * scale * wien / (1.0 - wien)
+                    let planck = scale * lanes::inverse_exp_m1(exponent_k * inverse);
+                    colour.absorption * all * planck
                 }
                 Emits::Radicals(emission) => emission * flame,
             };

@@ -247,15 +247,16 @@ impl GlowLight {
             let (gathered, width) = (&mut self.block_depth[i], &mut self.width[i]);
             for lane in 0..LANES {
                 let inverse = step.inverse_temperature[lane];
-                let wien = lanes::exp(-feature.planck_exponent_k * inverse);
-                let planck = feature.planck_scale * wien / (1.0 - wien);
+                let photons = lanes::inverse_exp_m1(feature.planck_exponent_k * inverse);
+                let planck = feature.planck_scale * photons;
                 let lower = if feature.lower_k > 0.0 {
                     lanes::exp(-feature.lower_k * inverse)
                 } else {
                     1.0
                 };
                 let gas = vapour[lane] * inverse * step.length[lane];
-                gathered[lane] += feature.strength * lower * (1.0 - wien) * gas;
+                // Less what is emitted because it is shone on: 1 − e^{−x}.
+                gathered[lane] += feature.strength * lower / (1.0 + photons) * gas;
                 let y = self.depth[i][lane] + gathered[lane];
                 let depth = feature
                     .dimming
@@ -299,10 +300,8 @@ impl GlowLight {
     ) {
         for (i, dimming) in table.dimmings().enumerate() {
             for lane in 0..LANES {
-                self.total[i][lane] += self.block[i][lane];
-                self.block[i][lane] = 0.0;
-                self.depth[i][lane] += self.block_depth[i][lane];
-                self.block_depth[i][lane] = 0.0;
+                lanes::flush(&mut self.total[i][lane], &mut self.block[i][lane]);
+                lanes::flush(&mut self.depth[i][lane], &mut self.block_depth[i][lane]);
                 let depth = dimming.depth::<SCATTER>(column_m[lane], smoke_m[lane]);
                 self.transmittance[i][lane] = lanes::exp(-depth);
             }

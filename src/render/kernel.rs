@@ -2,8 +2,8 @@
 //!
 //! Each ray is at its own sample, so a lane's arithmetic depends on its ray alone. The bricks without soot are found by
 //! [`super::chord`] and their steps are jumped over. Sums run in blocks of `FLUSH` samples that are then added to totals,
-//! and the transmittance is taken afresh from the summed column at each block's end: ten thousand steps of an f32 sum
-//! then lose no more than a few of its last bits.
+//! where what a total cannot hold goes into the next block, and the transmittance is taken afresh from the summed column
+//! at each block's end: a million steps of an f32 sum then lose no more than a few of its last bits.
 //!
 //! The loop is compiled for each of what a scene may call for: gas that glows beside soot (`GAS`), light scattered by it
 //! (`SCATTER`), rays that are bent (`BEND`). What is off is not in the loop.
@@ -129,20 +129,19 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
             if since_flush == FLUSH {
                 since_flush = 0;
                 for (lane, block) in block_column.iter_mut().enumerate() {
-                    light.column_m[lane] += std::mem::take(block);
+                    lanes::flush(&mut light.column_m[lane], block);
                     if light.column_m[lane] > opaque {
                         walk.stop(lane);
                     }
                 }
                 if SCATTER {
                     for (total, block) in light.smoke_m.iter_mut().zip(&mut block_smoke) {
-                        *total += std::mem::take(block);
+                        lanes::flush(total, block);
                     }
                 }
                 for (n, node) in nodes.iter().enumerate() {
                     for lane in 0..LANES {
-                        light.radiance[n][lane] += block_radiance[n][lane];
-                        block_radiance[n][lane] = 0.0;
+                        lanes::flush(&mut light.radiance[n][lane], &mut block_radiance[n][lane]);
                         let depth = if SCATTER {
                             let [all, smoke] = node.extinction();
                             all * light.column_m[lane] + smoke * light.smoke_m[lane]
@@ -176,8 +175,8 @@ impl<const GAS: bool, const SCATTER: bool, const BEND: bool> Kernel
 #[inline(always)]
 fn step_of(node: &Node, step: &Step, transmittance: &mut Lanes, radiance: &mut Lanes) {
     for lane in 0..LANES {
-        let wien = lanes::exp(-node.planck_exponent_k * step.inverse_temperature[lane]);
-        let planck = node.planck_scale * wien / (1.0 - wien);
+        let x = node.planck_exponent_k * step.inverse_temperature[lane];
+        let planck = node.planck_scale * lanes::inverse_exp_m1(x);
         let absorbed = -lanes::exp_m1(-node.absorption * step.column[lane]);
         let emitted = transmittance[lane] * absorbed;
         radiance[lane] += planck * emitted;
@@ -197,8 +196,8 @@ fn scattering_step(
 ) {
     let [by_soot, by_smoke] = node.scattering;
     for lane in 0..LANES {
-        let wien = lanes::exp(-node.planck_exponent_k * step.inverse_temperature[lane]);
-        let planck = node.planck_scale * wien / (1.0 - wien);
+        let x = node.planck_exponent_k * step.inverse_temperature[lane];
+        let planck = node.planck_scale * lanes::inverse_exp_m1(x);
         let (column, smoke) = (step.column[lane], step.smoke[lane]);
         let absorbing = node.absorption * column;
         let scattering = by_soot * (column - smoke) + by_smoke * smoke;

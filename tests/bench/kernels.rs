@@ -31,8 +31,8 @@ fn light_step(
     for (n, node) in tables.nodes.iter().enumerate() {
         let (transmittance, radiance) = (&mut transmittance[n], &mut radiance[n]);
         for lane in 0..LANES {
-            let wien = lanes::exp(-node.planck_exponent_k * inverse_temperature[lane]);
-            let planck = node.planck_scale * wien / (1.0 - wien);
+            let x = node.planck_exponent_k * inverse_temperature[lane];
+            let planck = node.planck_scale * lanes::inverse_exp_m1(x);
             let emitted = transmittance[lane] * -lanes::exp_m1(-node.absorption * column[lane]);
             radiance[lane] += planck * emitted;
             transmittance[lane] -= emitted;

@@ -114,18 +114,20 @@ impl Channels {
         let inverse = 1.0 / kelvin;
         for (b, emission) in emission.iter_mut().enumerate() {
             for (k, emission) in emission.iter_mut().enumerate() {
-                let wien = lanes::exp(-self.exponent_k[b][k] * inverse);
-                *emission = soot * self.scale[b][k] * wien / (1.0 - wien);
+                let planck =
+                    self.scale[b][k] * lanes::inverse_exp_m1(self.exponent_k[b][k] * inverse);
+                *emission = soot * planck;
             }
         }
         if !self.thermal.is_empty() {
             let vapour = self.glow.vapour_share(f64::from(kelvin)) as f32;
             for (thermal, growth) in self.thermal.iter().zip(growth) {
-                let wien = lanes::exp(-thermal.planck_exponent_k * inverse);
+                let photons = lanes::inverse_exp_m1(thermal.planck_exponent_k * inverse);
                 let lower = lanes::exp(-thermal.lower_k * inverse);
-                *growth = thermal.strength * lower * (1.0 - wien) * vapour * inverse;
-                let planck = thermal.planck_scale * wien / (1.0 - wien);
-                emission[thermal.channel / BLOCK][thermal.channel % BLOCK] = planck * *growth;
+                // Less what is emitted because it is shone on: 1 − e^{−x}.
+                *growth = thermal.strength * lower / (1.0 + photons) * vapour * inverse;
+                emission[thermal.channel / BLOCK][thermal.channel % BLOCK] =
+                    thermal.planck_scale * photons * *growth;
             }
         }
         for (i, radical) in (self.nodes + self.thermal.len()..).zip(&self.radicals) {
