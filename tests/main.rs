@@ -17,6 +17,7 @@ mod common;
 mod engine;
 mod golden;
 mod ground_truth;
+mod hard_cases;
 mod loading;
 mod render;
 mod screenshots;
