@@ -3,7 +3,8 @@
 //! # Plain sets
 //!
 //! K midpoints of equal bands on 380 to 780 nm; the weight of a node is the integral of the observer's
-//! functions over its band. Always right in the limit, whatever the spectrum; the reference.
+//! functions over its band, and the outermost two stand for what the observer sees beyond as well: even light keeps all of
+//! its X, Y and Z. Always right in the limit, whatever the spectrum; the reference.
 //!
 //! # Fitted sets
 //!
@@ -89,7 +90,8 @@ impl From<WavelengthSet> for u32 {
 
 /// Ends of the fitted nodes' interval, nm: beyond them the eye is so dull that nodes are wasted.
 const FITTED_RANGE_NM: [f64; 2] = [410.0, 690.0];
-/// Ends of the plain bands, nm: the observer's functions outside carry 1e-4 of a flame's luminance.
+/// Ends of the plain bands, nm: the observer's functions outside carry 1e-4 of a flame's luminance, and 5e-4 of an even
+/// spectrum's Z.
 const PLAIN_RANGE_NM: [f64; 2] = [380.0, 780.0];
 /// Ends and spacing of the integrals that the fit aims at, nm: the whole table of the observer.
 const TARGET_RANGE_NM: [f64; 2] = [360.0, 830.0];
@@ -111,14 +113,21 @@ fn plain(count: u32) -> Wavelengths {
             std::array::from_fn(|c| sum[c] + width * value[c])
         })
     };
-    let edges = (0..count).map(|i| low + f64::from(i) * band);
-    let nodes_nm: Vec<f64> = edges.clone().map(|edge| edge + 0.5 * band).collect();
-    let xyz = edges
+    let edge = |i: u32| low + f64::from(i) * band;
+    let nodes_nm: Vec<f64> = (0..count).map(|i| edge(i) + 0.5 * band).collect();
+    // What each stands for: its band, and beyond the outermost the observer's ends.
+    let [first, last] = TARGET_RANGE_NM;
+    let parts = (0..count).map(|i| {
+        let from = if i == 0 { first } else { edge(i) };
+        let to = if i + 1 == count { last } else { edge(i + 1) };
+        [from, to]
+    });
+    let xyz = parts
         .clone()
-        .map(|edge| integrate(edge, edge + band, &cie::colour_matching))
+        .map(|[from, to]| integrate(from, to, &cie::colour_matching))
         .collect();
-    let opacity: Vec<[f64; 3]> = edges
-        .map(|edge| integrate(edge, edge + band, &under_d65))
+    let opacity: Vec<[f64; 3]> = parts
+        .map(|[from, to]| integrate(from, to, &under_d65))
         .collect();
     let white: f64 = opacity.iter().map(|weight| weight[1]).sum();
     let opacity = opacity
