@@ -19,8 +19,12 @@ use sootlight::volume::{FieldKind, Volume};
 
 use super::common;
 
+mod colour;
+mod geometry;
+mod lines;
 mod phase;
 mod planck;
+mod refraction;
 mod slab;
 mod soot;
 
