@@ -5,6 +5,9 @@
 //!
 //! The law of a slab stands in no function of its own: it is the march's, in f32, and its opacity in f64 rounded to f32.
 //! Where a case asks for f64 there, the unbiased reference is tried, whose sums are f64.
+//!
+//! The exact angle of case 42 is held beside the code that bends paths, in `render::eikonal`, which is not public; here its
+//! pictures are.
 
 use std::sync::Arc;
 
@@ -19,14 +22,17 @@ use sootlight::volume::{FieldKind, Volume};
 
 use super::common;
 
+mod air;
 mod colour;
 mod geometry;
+mod grids;
 mod lines;
 mod phase;
 mod planck;
 mod refraction;
 mod slab;
 mod soot;
+mod steps;
 
 /// ε of the march.
 const EPSILON_32: f64 = f32::EPSILON as f64;

@@ -3,6 +3,7 @@
 use sootlight::math::lanes;
 use sootlight::physics::blackbody::{FIRST_RADIATION_CONSTANT, SECOND_RADIATION_CONSTANT_NM_K};
 use sootlight::physics::constants::{BOLTZMANN_J_PER_K, LIGHT_SPEED_M_PER_S, PLANCK_J_S};
+use sootlight::physics::soot::SootModel;
 use sootlight::project::{Project, ProjectError};
 use sootlight::render::{Effects, Plan, Prober, Switch};
 use sootlight::scene::WavelengthSet;
@@ -258,7 +259,7 @@ fn case_07_a_wavelength_of_zero_is_refused() {
     }
     for set in WavelengthSet::ALL {
         let nodes = set
-            .wavelengths(Project::default().fuel.name.soot_law(Default::default()))
+            .wavelengths(Project::default().fuel.name.soot_law(SootModel::default()))
             .nodes_nm;
         assert!(
             nodes.iter().all(|nm| (380.0..=780.0).contains(nm)),

@@ -159,7 +159,7 @@ fn a_thin_smooth_layer_refracts_as_snell_says() {
 
 /// Beyond 88.798294° air of 300 K and the hot side of a flame's edge are a mirror.
 #[test]
-fn the_critical_angle_is_where_snell_puts_it() {
+fn case_42_the_critical_angle_is_where_snell_puts_it() {
     let [n1, n2] = [1.00027, 1.00005];
     let layer = |point: DVec3| {
         let u = point.z.clamp(0.0, 1.0);
