@@ -44,7 +44,9 @@ fn main() {
     let shared = std::env::var_os("SOOTLIGHT_SHARED").map(PathBuf::from);
     let pool_fire = shared.map(|shared| shared.join("data/pool/pool_0022_zip_half.vdb"));
     if pool_fire.is_none() {
-        println!("SOOTLIGHT_SHARED names no folder with a pool fire: only files that are made here are read");
+        println!(
+            "SOOTLIGHT_SHARED names no folder with a pool fire: only files that are made here are read"
+        );
     }
     let first = pool_fire.as_deref().map_or(Ok(()), time_first_picture);
     if let Err(error) = first.and_then(|()| time_readers(pool_fire.as_deref())) {

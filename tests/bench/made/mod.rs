@@ -211,7 +211,6 @@ impl Fire {
         for (voxel, value) in self.voxels(field) {
             tree.set_value(&Coord::new(voxel.x, voxel.y, voxel.z), value);
         }
-        drop(tree);
         grid
     }
 }
