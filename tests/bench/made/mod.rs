@@ -1,16 +1,19 @@
 //! Fires of any size and fullness, and files of them in every format: what no folder of real fires has.
 
+#![allow(dead_code, reason = "each bench needs a part of it")]
+
 use std::fmt::Write as _;
 use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use glam::IVec3;
-use openvdb_rs::Grid;
+use glam::{DAffine3, DVec3, IVec3};
+use openvdb_rs::FloatGrid;
 use openvdb_rs::io::{WriteOptions, write_to};
 use openvdb_rs::math::{Coord, Transform, Vec3d};
 use openvdb_rs::metadata::MetaMap;
 use rayon::prelude::*;
+use sootlight::volume::{Border, Grid, Volume};
 
 use super::Failure;
 
@@ -83,6 +86,25 @@ impl Fire {
     /// A cube that is all flame.
     pub(crate) fn full(side: i32) -> Self {
         Self { side, radius: 2.0 }
+    }
+
+    /// Both fields in memory.
+    pub(crate) fn volume(&self) -> Volume {
+        let world = DAffine3::from_scale(DVec3::splat(1.0 / f64::from(self.side)))
+            * DAffine3::from_translation(DVec3::splat(0.5));
+        let grids = Field::BOTH.map(|field| {
+            let (dims, ambient) = (IVec3::splat(self.side), field.ambient());
+            let value = |voxel| self.value(field, voxel).unwrap_or(ambient);
+            Grid::from_fn(
+                field.name(),
+                dims,
+                world,
+                Border::Background,
+                ambient,
+                value,
+            )
+        });
+        Volume::from_grids(grids.to_vec(), "a column of flame")
     }
 
     /// The distance from the column's middle in its radii, 0 to 1; `None` outside.
@@ -200,10 +222,10 @@ impl Fire {
         Ok(())
     }
 
-    fn vdb(&self, field: Field) -> Grid<f32> {
+    fn vdb(&self, field: Field) -> FloatGrid {
         let mut transform = Transform::linear(1.0 / f64::from(self.side));
         transform.post_translate(Vec3d::splat(0.5 / f64::from(self.side)));
-        let mut grid = Grid::new(field.ambient())
+        let mut grid = FloatGrid::new(field.ambient())
             .with_transform(transform)
             .with_name(field.name());
         grid.set_save_float_as_half(matches!(field, Field::Temperature));
