@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use sootlight::engine::{Engine, News, Picture};
-use sootlight::project::Project;
+use sootlight::project::{Job, Project};
 use sootlight::volume::{self, BRICK_LEN, Limits};
 
 use super::Failure;
@@ -67,7 +67,8 @@ impl Order {
         let packed = Memory::now()?;
         let medium = scene.flame.medium();
         let grids = volume.grids.iter();
-        let bricks = grids.clone().map(|grid| grid.bricks().len()).max();
+        // A dense format has no background but 0: of kelvin every brick is stored.
+        let bricks = grids.clone().map(|grid| grid.bricks().len()).min();
         let told = [
             read.resident - before.resident,
             read.peak - before.resident,
@@ -82,14 +83,7 @@ impl Order {
         ];
         let pictured = if self.renders {
             drop(scene);
-            let [first_s, whole_s] = picture(job)?;
-            let rendered = Memory::now()?;
-            vec![
-                first_s,
-                whole_s,
-                rendered.resident - before.resident,
-                rendered.peak - before.resident,
-            ]
+            picture(job, &before)?
         } else {
             Vec::new()
         };
@@ -99,18 +93,26 @@ impl Order {
     }
 }
 
-/// Seconds from a submit to the first whole pass and to the last, as in a window.
-fn picture(job: sootlight::project::Job) -> Result<[f64; 2], Failure> {
+/// Renders as a window does. For the moment when the fields are packed and for every pass: seconds from the submit, and what
+/// is resident then and was at most.
+fn picture(job: Job, before: &Memory) -> Result<Vec<f64>, Failure> {
     let engine = Engine::new(Engine::threads_beside_a_window(), Box::new(|| {}))?;
     let mut picture = Picture::new(SIZE);
     let begun = Instant::now();
-    let mut first = f64::NAN;
+    let mut told = Vec::new();
     engine.submit(job);
     loop {
         for update in engine.drain() {
             match &update.news {
-                News::PassDone { index: 0, .. } => first = begun.elapsed().as_secs_f64(),
-                News::Finished => return Ok([first, begun.elapsed().as_secs_f64()]),
+                News::Started { .. } | News::PassDone { .. } => {
+                    let now = Memory::now()?;
+                    told.extend([
+                        begun.elapsed().as_secs_f64(),
+                        now.resident - before.resident,
+                        now.peak - before.resident,
+                    ]);
+                }
+                News::Finished => return Ok(told),
                 News::Failed(words) => return Err(words.clone().into()),
                 _ => {}
             }
@@ -179,18 +181,18 @@ impl Told {
         let [read, read_peak, grids, packed, packed_peak, medium] =
             [0, 1, 2, 4, 5, 6].map(|i| self.at(i));
         println!(
-            "  {name:<16} {:>8.2} {:>9.1} {:>9.1} {:>6.2} {:>7.1} {:>9.1} {:>9.1} {:>7.1} {:>9.1} {:>6.2} {:>7.1}",
+            "  {name:<14} {:>8.2} | {:>8.1} {:>8.1} {:>8.1} {:>6.2} {:>6.1} | {:>8.1} {:>8.1} {:>8.1} {:>6.2} {:>6.1}",
             voxels / MB,
             grids / MB,
             read / MB,
-            read_peak / read,
+            read_peak / MB,
+            read_peak / grids,
             grids / voxels,
             medium / MB,
             packed / MB,
-            medium / voxels,
             packed_peak / MB,
-            packed_peak / packed,
-            packed / voxels,
+            packed_peak / (grids + medium),
+            medium / voxels,
         );
     }
 }
@@ -201,21 +203,24 @@ pub(crate) fn measure() -> Result<(), Failure> {
         println!("no memory: {error}");
         return Ok(());
     }
-    println!("memory of two fields, MB and bytes a voxel of occupied bricks:");
     println!(
-        "  {:<16} {:>8} {:>9} {:>9} {:>6} {:>7} {:>9} {:>9} {:>7} {:>9} {:>6} {:>7}",
+        "memory of two fields, MB: what the program counts, what is resident, and the peak, as such and over what is counted;\n  \
+         after reading, and after packing; bytes are those counted, a voxel of occupied bricks"
+    );
+    println!(
+        "  {:<14} {:>8} | {:>8} {:>8} {:>8} {:>6} {:>6} | {:>8} {:>8} {:>8} {:>6} {:>6}",
         "",
         "Mvoxels",
         "grids",
         "resident",
-        "peak/",
-        "B/voxel",
+        "peak",
+        "",
+        "bytes",
         "packed",
         "resident",
-        "B/voxel",
         "peak",
-        "peak/",
-        "B/voxel"
+        "",
+        "bytes"
     );
     for kind in Kind::ALL {
         let fire = Fire {
@@ -249,17 +254,31 @@ pub(crate) fn measure() -> Result<(), Failure> {
     );
     let told = told_of(&LARGE, Kind::OpenVdb, RENDER)?;
     told.print(&format!("{}³", LARGE.side));
-    let [read, pack, first, whole, resident, peak] = [8, 9, 10, 11, 12, 13].map(|i| told.at(i));
+    let share = 100.0 * told.voxels() / f64::from(LARGE.side).powi(3);
     println!(
-        "  {}³, {} % occupied: read in {read:.2} s, packed in {pack:.2} s; at {} × {} the first pass comes {first:.2} s after \
-         it was asked for, packing included, and the last after {whole:.1} s; {:.0} MB resident then, at most {:.0} MB",
+        "  {}³, {} % occupied: read in {:.2} s; then at {} × {}, packing included:",
         LARGE.side,
-        short(100.0 * told.voxels() / f64::from(LARGE.side).powi(3)),
+        short(share),
+        told.at(8),
         SIZE[0],
-        SIZE[1],
-        resident / MB,
-        peak / MB
+        SIZE[1]
     );
+    let moments = told.numbers.get(10..).unwrap_or_default();
+    let names = [
+        "packed",
+        "pass 1/8",
+        "pass 1/4",
+        "pass 1/2",
+        "whole picture",
+    ];
+    for (name, moment) in names.iter().zip(moments.chunks_exact(3)) {
+        let [seconds, resident, peak] = [0, 1, 2].map(|i| moment[i]);
+        println!(
+            "    {name:<14} after {seconds:>6.2} s, {:>6.0} MB resident, at most {:>6.0} MB",
+            resident / MB,
+            peak / MB
+        );
+    }
     Ok(())
 }
 
