@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use sootlight::engine::{Engine, News, Picture};
 use sootlight::project::{Job, Project};
+use sootlight::render::Switch;
 use sootlight::volume::{self, BRICK_LEN, Limits};
 
 use super::Failure;
@@ -18,6 +19,8 @@ use super::made::{Fire, Kind};
 const OPEN: &str = "--open-and-tell";
 /// The same, with a picture.
 const RENDER: &str = "--render-and-tell";
+/// The same, with a picture whose light is not bent.
+const RENDER_STRAIGHT: &str = "--render-straight-and-tell";
 /// Sides of the fires of the table of growth, voxels, and the radius of their columns.
 const SIDES: [i32; 4] = [64, 128, 256, 512];
 const RADIUS: f64 = 0.2;
@@ -36,6 +39,7 @@ const MB: f64 = 1e6;
 /// What a process of its own is to do.
 pub(crate) struct Order {
     renders: bool,
+    bends: bool,
     paths: Vec<PathBuf>,
 }
 
@@ -44,9 +48,11 @@ impl Order {
     pub(crate) fn of_this_process() -> Option<Self> {
         let mut arguments = std::env::args_os().skip(1);
         let first = arguments.next()?;
-        let renders = first == RENDER;
+        let bends = first == RENDER;
+        let renders = bends || first == RENDER_STRAIGHT;
         (renders || first == OPEN).then(|| Self {
             renders,
+            bends,
             paths: arguments.map(PathBuf::from).collect(),
         })
     }
@@ -60,6 +66,9 @@ impl Order {
         let read = Memory::now()?;
         let mut project = Project::default();
         project.render.size = SIZE;
+        if self.renders && !self.bends {
+            project.effects.refraction = Switch::Off;
+        }
         let job = project.job(&volume)?;
         let begun = Instant::now();
         let scene = job.scene(None);
@@ -197,6 +206,27 @@ impl Told {
     }
 }
 
+impl Told {
+    fn print_passes(&self) {
+        let moments = self.numbers.get(10..).unwrap_or_default();
+        let names = [
+            "packed",
+            "pass 1/8",
+            "pass 1/4",
+            "pass 1/2",
+            "whole picture",
+        ];
+        for (name, moment) in names.iter().zip(moments.chunks_exact(3)) {
+            let [seconds, resident, peak] = [0, 1, 2].map(|i| moment[i]);
+            println!(
+                "    {name:<14} after {seconds:>6.2} s, {:>6.0} MB resident, at most {:>6.0} MB",
+                resident / MB,
+                peak / MB
+            );
+        }
+    }
+}
+
 /// The tables of memory.
 pub(crate) fn measure() -> Result<(), Failure> {
     if let Err(error) = Memory::now() {
@@ -252,33 +282,22 @@ pub(crate) fn measure() -> Result<(), Failure> {
         against(8),
         against(9)
     );
-    let told = told_of(&LARGE, Kind::OpenVdb, RENDER)?;
+    let folder = tempfile::tempdir()?;
+    let paths = LARGE.write_both(Kind::OpenVdb, folder.path())?;
+    let told = Told::of(RENDER, &paths)?;
     told.print(&format!("{}³", LARGE.side));
     let share = 100.0 * told.voxels() / f64::from(LARGE.side).powi(3);
     println!(
-        "  {}³, {} % occupied: read in {:.2} s; then at {} × {}, packing included:",
+        "  {}³, {} % occupied, read in {:.2} s; then at {} × {}, packing included:",
         LARGE.side,
         short(share),
         told.at(8),
         SIZE[0],
         SIZE[1]
     );
-    let moments = told.numbers.get(10..).unwrap_or_default();
-    let names = [
-        "packed",
-        "pass 1/8",
-        "pass 1/4",
-        "pass 1/2",
-        "whole picture",
-    ];
-    for (name, moment) in names.iter().zip(moments.chunks_exact(3)) {
-        let [seconds, resident, peak] = [0, 1, 2].map(|i| moment[i]);
-        println!(
-            "    {name:<14} after {seconds:>6.2} s, {:>6.0} MB resident, at most {:>6.0} MB",
-            resident / MB,
-            peak / MB
-        );
-    }
+    told.print_passes();
+    println!("  the same with light that is not bent:");
+    Told::of(RENDER_STRAIGHT, &paths)?.print_passes();
     Ok(())
 }
 
