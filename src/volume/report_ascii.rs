@@ -17,8 +17,8 @@ use super::build::{GridHead, is_usable};
 use super::file_volume::FileVolume;
 use super::grid::{Border, Grid};
 use super::naming::NamedField;
-use super::text::{Text, quote, voxel_count};
-use super::text_blocks::{Blocks, Fault};
+use super::text::{Text, voxel_count};
+use super::text_blocks::Blocks;
 use super::watch::Stretch;
 use super::{Format, Limits, VolumeError};
 use super::{text_dense, text_sparse};
@@ -215,26 +215,4 @@ fn head(border: Border, background: f32) -> GridHead {
         background,
         stored_as: "ascii",
     }
-}
-
-/// A coordinate of a sparse record along an axis.
-pub(super) fn coordinate(at: usize, digits: &[u8], axis: usize, dims: IVec3) -> Result<i32, Fault> {
-    let plain = digits.len() <= 9 && !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
-    let parsed = if plain {
-        let value = |sum: i32, digit: &u8| 10 * sum + i32::from(digit - b'0');
-        Some(digits.iter().fold(0, value))
-    } else {
-        std::str::from_utf8(digits)
-            .ok()
-            .and_then(|it| it.parse().ok())
-    };
-    let inside = parsed.filter(|c| (0..dims[axis]).contains(c));
-    inside.ok_or_else(|| {
-        let (name, last) = (["x", "y", "z"][axis], dims[axis] - 1);
-        let found = quote(digits);
-        Fault {
-            at,
-            message: format!("expected {name} from 0 to {last}, found {found}"),
-        }
-    })
 }

@@ -7,8 +7,7 @@ use glam::IVec3;
 use rayon::prelude::*;
 
 use super::build_sparse::{Sorted, Voxels};
-use super::report_ascii::coordinate;
-use super::text::{Text, not_a_number};
+use super::text::{Text, not_a_number, quote};
 use super::text_blocks::{Blocks, Fault, Piece, pieces};
 use super::watch::Stretch;
 use super::{Limits, VolumeError};
@@ -151,5 +150,27 @@ fn cut_record(path: &Path, block: &[u8], begin: usize, dims: IVec3) -> Option<Fa
     first.map(|at| Fault {
         at,
         message: "expected \"x y z value\", the file ends within a voxel".to_owned(),
+    })
+}
+
+/// A coordinate of a sparse record along an axis.
+fn coordinate(at: usize, digits: &[u8], axis: usize, dims: IVec3) -> Result<i32, Fault> {
+    let plain = digits.len() <= 9 && !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
+    let parsed = if plain {
+        let value = |sum: i32, digit: &u8| 10 * sum + i32::from(digit - b'0');
+        Some(digits.iter().fold(0, value))
+    } else {
+        std::str::from_utf8(digits)
+            .ok()
+            .and_then(|it| it.parse().ok())
+    };
+    let inside = parsed.filter(|c| (0..dims[axis]).contains(c));
+    inside.ok_or_else(|| {
+        let (name, last) = (["x", "y", "z"][axis], dims[axis] - 1);
+        let found = quote(digits);
+        Fault {
+            at,
+            message: format!("expected {name} from 0 to {last}, found {found}"),
+        }
     })
 }
