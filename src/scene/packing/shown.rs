@@ -149,3 +149,30 @@ fn put_in_order<T: Copy>(field: &mut [T], order: &[usize]) {
         moved[slot] = from;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bricks_come_in_any_order_without_a_copy() {
+        let orders: [&[usize]; 6] = [
+            &[0, 1, 2, 3, 4, 5],
+            &[1, 3, 4],
+            &[2, 5, 0, 1, 4],
+            &[5, 4, 3, 2, 1, 0],
+            &[3, 0, 1, 2],
+            &[],
+        ];
+        for order in orders {
+            let mut field: Vec<usize> = (0..6 * BRICK_SAMPLES).collect();
+            let wanted: Vec<usize> = order
+                .iter()
+                .flat_map(|i| i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES)
+                .collect();
+            put_in_order(&mut field, order);
+            assert_eq!(field[..wanted.len()], wanted, "{order:?}");
+        }
+        put_in_order::<f32>(&mut [], &[1, 0]);
+    }
+}
