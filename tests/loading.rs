@@ -1,5 +1,6 @@
 //! Files of every kind become volumes, or errors that help.
 
+mod borders;
 mod fuzz;
 mod real;
 mod wanted;

@@ -1,152 +1,173 @@
-//! Sparse grids from lists of voxels.
+//! Sparse grids from lists of voxels in any order.
 
+use std::collections::HashMap;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::IVec3;
 use rayon::prelude::*;
 
-use super::build::{GridHead, NewBrick, Tally};
-use super::grid::Grid;
-use super::lattice::{BRICK_LEN, IndexBox, brick_key, brick_of, offset_in_brick};
+use super::build::{Gathered, NewBrick};
+use super::lattice::{BRICK_LEN, IndexBox, brick_of, offset_in_brick};
+use super::new_brick::Known;
 use super::watch::Stretch;
 use super::{Limits, VolumeError};
+
+/// Heaps into which bricks are parted, each filled by one thread at a time.
+const HEAPS: usize = 16;
 
 /// A voxel and its value.
 type Voxel = (IVec3, f32);
 
-/// Share of the time that sorting voxels takes.
-const SORTING: f32 = 0.7;
-/// Share of the sorting after which the voxels lie in their heaps.
-const HEAPED: f32 = 0.5;
-/// Most heaps, as a power of two: a heap is sorted without a look at the watch.
-const HEAP_BITS: u32 = 12;
-/// Voxels that are moved between two looks at the watch.
-const VOXELS_PER_LOOK: usize = 1 << 14;
+/// Voxels of a part of a file in its order, parted by the heaps of their bricks.
+#[derive(Default)]
+pub(super) struct Sorted {
+    heaps: [Vec<Voxel>; HEAPS],
+    bounds: Option<IndexBox>,
+}
 
-impl Grid {
-    /// A sparse grid from voxels in any order, with the number of voxels that came more than once: the last
-    /// value of a voxel is kept.
-    ///
-    /// # Errors
-    /// [`VolumeError::TooLarge`], before bricks are allocated; [`VolumeError::Cancelled`]. Coordinates must lie
-    /// within `MAX_COORDINATE`.
-    pub(super) fn from_voxels(
-        head: GridHead,
-        voxels: Vec<Voxel>,
-        path: &Path,
-        limits: &Limits,
-        stretch: Stretch,
-    ) -> Result<(Self, Tally, u64), VolumeError> {
-        let bounds = voxels.iter().fold(IndexBox::EMPTY, |bounds, (voxel, _)| {
-            bounds.union(IndexBox {
-                min: *voxel,
-                max: *voxel + IVec3::ONE,
-            })
-        });
-        limits.check_extent(path, "the box of its voxels", bounds)?;
-        let voxels = sorted_by_brick(voxels, bounds, stretch.part(0.0, SORTING))?;
-        let building = stretch.part(SORTING, 1.0);
-        let runs: Vec<&[Voxel]> = voxels
-            .chunk_by(|a, b| brick_of(a.0) == brick_of(b.0))
-            .collect();
-        building.reach(0, 1)?;
-        limits.check_bricks(path, "the grid", runs.len() as u64)?;
-        let background = head.background;
-        let counter = building.counter(runs.len());
-        let bricks: Vec<(NewBrick, u64)> = runs
-            .into_par_iter()
-            .map(|run| {
-                if !counter.goes_on() {
-                    return Err(VolumeError::Cancelled);
-                }
-                let mut values = [None; BRICK_LEN];
-                let mut repeated = 0u64;
-                for (voxel, value) in run {
-                    let slot = &mut values[offset_in_brick(*voxel)];
-                    repeated += u64::from(slot.is_some());
-                    *slot = Some(*value);
-                }
-                let coordinate = brick_of(run[0].0);
-                let brick = NewBrick::from_samples(coordinate, background, |voxel| {
-                    values[offset_in_brick(voxel)]
-                });
-                Ok((brick, repeated))
-            })
-            .collect::<Result<_, _>>()?;
-        let repeated = bricks.iter().map(|(_, repeated)| repeated).sum();
-        let bricks = bricks.into_iter().map(|(brick, _)| brick).collect();
-        let (grid, tally) = Self::from_bricks(head, bricks);
-        Ok((grid, tally, repeated))
+impl Sorted {
+    /// Adds a voxel.
+    pub(super) fn push(&mut self, voxel: IVec3, value: f32) {
+        let own = IndexBox {
+            min: voxel,
+            max: voxel + IVec3::ONE,
+        };
+        self.bounds = Some(self.bounds.map_or(own, |bounds| bounds.union(own)));
+        self.heaps[heap_of(brick_of(voxel))].push((voxel, value));
     }
 }
 
-/// Voxels in the order of their bricks; those of one brick, and so doubles, keep the order of the file.
-///
-/// One sort of them all could not be cancelled for seconds. So the box is cut, in the order of its bricks, into heaps
-/// that are sorted one by one.
-fn sorted_by_brick(
-    voxels: Vec<Voxel>,
+/// Neighbours lie in different heaps, so that each has a share of any part of a file.
+fn heap_of(brick: IVec3) -> usize {
+    let mixed = brick.x ^ brick.y.wrapping_mul(5) ^ brick.z.wrapping_mul(11);
+    mixed as usize % HEAPS
+}
+
+/// Voxels on their way into bricks.
+pub(super) struct Voxels {
+    limits: Limits,
+    heaps: Vec<Heap>,
     bounds: IndexBox,
-    stretch: Stretch,
-) -> Result<Vec<Voxel>, VolumeError> {
-    if bounds.is_empty() {
-        return Ok(voxels);
-    }
-    let heaping = stretch.part(0.0, HEAPED);
-    let corner = brick_of(bounds.min);
-    let table = brick_of(bounds.max - IVec3::ONE) - corner + IVec3::ONE;
-    let shift = (u64::BITS - bounds.brick_count().leading_zeros()).saturating_sub(HEAP_BITS);
-    let heap_of = |voxel: IVec3| {
-        let [x, y, z] = (brick_of(voxel) - corner).to_array().map(|c| c as u64);
-        let [width, height] = [table.x as u64, table.y as u64];
-        // Where the table has more bricks than can be counted, the last heap takes the rest.
-        let place = (z.saturating_mul(height).saturating_add(y))
-            .saturating_mul(width)
-            .saturating_add(x);
-        (place >> shift) as usize
-    };
+    /// Bricks that are stored.
+    stored: AtomicU64,
+}
 
-    let all = voxels.len() as u64;
-    let mut sizes = vec![0usize; 1 << HEAP_BITS];
-    for some in voxels.chunks(VOXELS_PER_LOOK) {
-        heaping.check()?;
-        for (voxel, _) in some {
-            sizes[heap_of(*voxel)] += 1;
-        }
-    }
-    let mut begin = 0;
-    let mut next: Vec<usize> = sizes
-        .iter()
-        .map(|size| {
-            begin += size;
-            begin - size
-        })
-        .collect();
-    let mut heaped = vec![(IVec3::ZERO, 0.0); voxels.len()];
-    for (look, some) in voxels.chunks(VOXELS_PER_LOOK).enumerate() {
-        heaping.reach((look * VOXELS_PER_LOOK) as u64, all)?;
-        for voxel in some {
-            let place = &mut next[heap_of(voxel.0)];
-            heaped[*place] = *voxel;
-            *place += 1;
-        }
-    }
-    drop(voxels);
+/// Some of the bricks.
+#[derive(Default)]
+struct Heap {
+    places: HashMap<IVec3, usize>,
+    bricks: Vec<Loose>,
+    repeated: u64,
+}
 
-    let mut rest = heaped.as_mut_slice();
-    let heaps: Vec<&mut [Voxel]> = sizes
-        .into_iter()
-        .map(|size| rest.split_off_mut(..size).unwrap_or_default())
-        .collect();
-    let counter = stretch.part(HEAPED, 1.0).counter(heaps.len());
-    heaps.into_par_iter().for_each(|heap| {
-        if counter.goes_on() {
-            // The sort is stable.
-            heap.sort_by_key(|(voxel, _)| brick_key(brick_of(*voxel)));
+/// A brick that is not whole yet.
+struct Loose {
+    coordinate: IVec3,
+    /// None where there are too many bricks: they are counted, to be told.
+    values: Option<Box<[f32; BRICK_LEN]>>,
+    known: Known,
+}
+
+impl Voxels {
+    /// None yet.
+    pub(super) fn new(limits: &Limits) -> Self {
+        Self {
+            limits: *limits,
+            heaps: (0..HEAPS).map(|_| Heap::default()).collect(),
+            bounds: IndexBox::EMPTY,
+            stored: AtomicU64::new(0),
         }
-    });
-    stretch.check()?;
-    Ok(heaped)
+    }
+
+    /// Adds parts of a file, which come in its order: the last value of a voxel is kept.
+    ///
+    /// # Errors
+    /// [`VolumeError::Cancelled`].
+    pub(super) fn add(&mut self, parts: &[Sorted], stretch: Stretch) -> Result<(), VolumeError> {
+        let bounds = parts.iter().filter_map(|part| part.bounds);
+        self.bounds = bounds.fold(self.bounds, IndexBox::union);
+        if self.bounds.brick_count() > self.limits.max_extent_bricks {
+            // They will be refused once the file is known to be sound.
+            self.heaps
+                .iter_mut()
+                .for_each(|heap| *heap = Heap::default());
+            return Ok(());
+        }
+        let most = self.limits.most_bricks();
+        let (stored, counter) = (&self.stored, stretch.counter(HEAPS));
+        self.heaps.par_iter_mut().enumerate().for_each(|(i, heap)| {
+            if counter.goes_on() {
+                let may_store = || stored.fetch_add(1, Ordering::Relaxed) < most;
+                for part in parts {
+                    heap.add(&part.heaps[i], may_store);
+                }
+            }
+        });
+        stretch.check()
+    }
+
+    /// The bricks, with the number of voxels that came more than once.
+    ///
+    /// # Errors
+    /// [`VolumeError::TooLarge`]; [`VolumeError::Cancelled`].
+    pub(super) fn into_bricks(
+        self,
+        background: f32,
+        path: &Path,
+        limits: &Limits,
+        stretch: Stretch,
+    ) -> Result<(Gathered, u64), VolumeError> {
+        limits.check_extent(path, "the box of its voxels", self.bounds)?;
+        let count = self.heaps.iter().map(|heap| heap.bricks.len()).sum();
+        limits.check_bricks(path, "the grid", count as u64)?;
+        let repeated = self.heaps.iter().map(|heap| heap.repeated).sum();
+        let counter = stretch.counter(count);
+        let gathered = self
+            .heaps
+            .into_par_iter()
+            .flat_map(|heap| heap.bricks)
+            .filter_map(|loose| {
+                let values = counter.goes_on().then_some(loose.values).flatten()?;
+                let Loose {
+                    coordinate, known, ..
+                } = loose;
+                Some(NewBrick::from_values(
+                    coordinate, background, values, &known,
+                ))
+            })
+            .fold(Gathered::default, Gathered::with)
+            .reduce(Gathered::default, Gathered::and);
+        stretch.check()?;
+        Ok((gathered, repeated))
+    }
+}
+
+impl Heap {
+    /// Puts voxels into their bricks; a new one is stored if `may_store` says so.
+    fn add(&mut self, voxels: &[Voxel], may_store: impl Fn() -> bool) {
+        for run in voxels.chunk_by(|a, b| brick_of(a.0) == brick_of(b.0)) {
+            let coordinate = brick_of(run[0].0);
+            let bricks = &mut self.bricks;
+            let place = *self.places.entry(coordinate).or_insert_with(|| {
+                bricks.push(Loose {
+                    coordinate,
+                    values: may_store().then(|| Box::new([0.0; BRICK_LEN])),
+                    known: Known::default(),
+                });
+                bricks.len() - 1
+            });
+            let Loose { values, known, .. } = &mut self.bricks[place];
+            let Some(values) = values else {
+                continue;
+            };
+            for (voxel, value) in run {
+                let offset = offset_in_brick(*voxel);
+                self.repeated += u64::from(!known.mark(offset));
+                values[offset] = *value;
+            }
+        }
+    }
 }
 
 /// Says how often a voxel came again.

@@ -64,6 +64,11 @@ impl Limits {
         })
     }
 
+    /// How many bricks may be stored.
+    pub(super) fn most_bricks(&self) -> u64 {
+        self.max_bytes / (BRICK_LEN * 4) as u64
+    }
+
     /// Refuses a number of stored bricks before they are allocated.
     pub(super) fn check_bricks(
         &self,

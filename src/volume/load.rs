@@ -15,10 +15,6 @@ use super::{openvdb, report_ascii, report_binary};
 
 /// Enough of a file to tell what it is.
 const HEAD_BYTES: u64 = 256;
-/// Bytes that are read between two looks at the watch.
-const CHUNK_BYTES: u64 = 1 << 20;
-/// Share of the time that bringing bytes into memory takes.
-const READING: f32 = 0.2;
 
 /// Opens one file, or several that belong together, as one volume. What a file is, is told by its bytes.
 ///
@@ -176,24 +172,8 @@ fn read_file(
             advice,
         }),
         Sniffed::OpenVdb => openvdb::read(path, &bytes, about.len(), wanted, limits, stretch),
-        text_or_binary => {
-            let (reading, making) = (stretch.part(0.0, READING), stretch.part(READING, 1.0));
-            // The file may have grown since its length was asked for.
-            let mut rest = file.take(limits.max_bytes);
-            while (&mut rest)
-                .take(CHUNK_BYTES)
-                .read_to_end(&mut bytes)
-                .map_err(io)?
-                > 0
-            {
-                reading.reach(bytes.len() as u64, about.len())?;
-            }
-            if text_or_binary == Sniffed::Text {
-                report_ascii::read(path, &bytes, limits, making)
-            } else {
-                report_binary::read(path, &bytes, limits, making)
-            }
-        }
+        Sniffed::Text => report_ascii::read(path, file, about.len(), limits, stretch),
+        Sniffed::SparseBinary => report_binary::read(path, file, about.len(), limits, stretch),
     }
 }
 

@@ -15,6 +15,7 @@ mod lattice;
 mod limits;
 mod load;
 mod naming;
+mod new_brick;
 mod openvdb;
 mod openvdb_archive;
 mod openvdb_heads;
@@ -27,6 +28,9 @@ mod report_binary;
 mod sniff;
 mod summary;
 mod text;
+mod text_blocks;
+mod text_dense;
+mod text_sparse;
 mod wanted;
 mod watch;
 

@@ -1,11 +1,10 @@
-//! A cursor over the text of an ASCII volume: numbers, whole numbers, and errors that name their line.
+//! A cursor over the first lines of an ASCII volume: numbers, whole numbers, and errors that name their line.
 
 use std::path::Path;
 
 use glam::IVec3;
 
 use super::lattice::{IndexBox, MAX_COORDINATE};
-use super::watch::Stretch;
 use super::{Limits, VolumeError};
 
 /// Voxels of a box.
@@ -15,9 +14,6 @@ pub(super) fn voxel_count(dims: IVec3) -> u64 {
         .saturating_mul(dims.z.unsigned_abs().into())
 }
 
-/// Numbers that are counted between two looks at the watch.
-const NUMBERS_PER_LOOK: u64 = 4096;
-
 /// A piece of the file for a message: short, and without control characters.
 pub(super) fn quote(token: &[u8]) -> String {
     let text = String::from_utf8_lossy(&token[..token.len().min(40)]);
@@ -25,11 +21,21 @@ pub(super) fn quote(token: &[u8]) -> String {
     format!("\"{}{more}\"", text.escape_debug())
 }
 
+/// Says that a number should stand where something else does.
+pub(super) fn not_a_number(token: &[u8]) -> String {
+    let advice = if token.contains(&b',') {
+        "; write decimals with a point and part values by spaces"
+    } else {
+        ""
+    };
+    format!("expected a number, found {}{advice}", quote(token))
+}
+
 fn is_line_break(byte: u8) -> bool {
     byte == b'\n' || byte == b'\r'
 }
 
-/// A cursor over the contents.
+/// A cursor over the beginning of a file, or over a part of which no error names a line.
 pub(super) struct Text<'a> {
     pub path: &'a Path,
     pub bytes: &'a [u8],
@@ -48,18 +54,6 @@ impl<'a> Text<'a> {
         let end = length.map_or(bytes.len(), |length| start + length);
         self.at = end;
         Some((start, &bytes[start..end]))
-    }
-
-    /// The numbers that are left.
-    pub(super) fn count_tokens(&mut self, stretch: Stretch) -> Result<u64, VolumeError> {
-        let mut count = 0u64;
-        while self.next_token().is_some() {
-            count += 1;
-            if count.is_multiple_of(NUMBERS_PER_LOOK) {
-                stretch.check()?;
-            }
-        }
-        Ok(count)
     }
 
     /// The tokens of the first line that is not blank; the cursor stays at its end.
@@ -137,39 +131,10 @@ impl<'a> Text<'a> {
 
     pub(super) fn number(&self, at: usize, token: &[u8]) -> Result<f32, VolumeError> {
         // Overflow parses as infinity, which is counted and told with the other values that are not finite.
-        fast_float2::parse(token).map_err(|_| {
-            let advice = if token.contains(&b',') {
-                "; write decimals with a point and part values by spaces"
-            } else {
-                ""
-            };
-            self.malformed(
-                at,
-                format!("expected a number, found {}{advice}", quote(token)),
-            )
-        })
+        fast_float2::parse(token).map_err(|_| self.malformed(at, not_a_number(token)))
     }
 
-    pub(super) fn wrong_count(&self, dims: IVec3, found: &str) -> VolumeError {
-        let count = voxel_count(dims);
-        VolumeError::Malformed {
-            path: self.path.to_owned(),
-            line: None,
-            message: format!(
-                "the header {} {} {} announces {count} values, found {found}; the file is cut or the header is wrong",
-                dims.x, dims.y, dims.z
-            ),
-        }
-    }
-
-    pub(super) fn cut_record(&self, at: usize) -> VolumeError {
-        self.malformed(
-            at,
-            "expected \"x y z value\", the file ends within a voxel".to_owned(),
-        )
-    }
-
-    /// An error at a byte of the file. The line is counted here, so that reading pays nothing for it.
+    /// An error at a byte of the beginning of a file.
     pub(super) fn malformed(&self, at: usize, message: String) -> VolumeError {
         let before = &self.bytes[..at.min(self.bytes.len())];
         let breaks = before

@@ -58,25 +58,11 @@ impl Medium {
             self.table[index] = slot;
         }
         let kept = order.len();
-        if order.is_sorted() {
-            // In place, as long as nothing is moved up.
-            for (slot, &i) in order.iter().enumerate() {
-                let own = i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES;
-                for beside in [&mut self.flame, &mut self.smoke] {
-                    if !beside.is_empty() {
-                        beside.copy_within(own.clone(), slot * BRICK_SAMPLES);
-                    }
-                }
-                self.samples.copy_within(own, slot * BRICK_SAMPLES);
-            }
-        } else {
-            self.samples = in_order(&self.samples, &order);
-            self.flame = in_order(&self.flame, &order);
-            self.smoke = in_order(&self.smoke, &order);
-        }
+        put_in_order(&mut self.samples, &order);
         self.samples.truncate(kept * BRICK_SAMPLES);
         self.samples.shrink_to_fit();
         for beside in [&mut self.flame, &mut self.smoke] {
+            put_in_order(beside, &order);
             beside.truncate(kept * BRICK_SAMPLES);
             beside.shrink_to_fit();
         }
@@ -147,15 +133,49 @@ impl Medium {
     }
 }
 
-/// The bricks of a field in another order; nothing where there is no field.
-fn in_order<T: Copy>(field: &[T], order: &[usize]) -> Vec<T> {
-    let mut moved = Vec::with_capacity(field.len().min(order.len() * BRICK_SAMPLES));
-    for &i in order {
-        moved.extend_from_slice(
-            field
-                .get(i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES)
-                .unwrap_or_default(),
-        );
+/// Moves the bricks of a field so that those of `order` come first, in place: a copy would double what packing needs. Nothing
+/// where there is no field.
+fn put_in_order<T: Copy>(field: &mut [T], order: &[usize]) {
+    let mut bricks: Vec<&mut [T]> = field.chunks_exact_mut(BRICK_SAMPLES).collect();
+    // Where the bricks went that had to give way.
+    let mut moved: Vec<usize> = (0..bricks.len()).collect();
+    for (slot, &wanted) in order.iter().enumerate().take(bricks.len()) {
+        // What was swapped away from its place is found by following where it went.
+        let mut from = wanted;
+        while from < slot {
+            from = moved[from];
+        }
+        if from != slot {
+            let (before, rest) = bricks.split_at_mut(from);
+            before[slot].swap_with_slice(rest[0]);
+        }
+        moved[slot] = from;
     }
-    moved
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bricks_come_in_any_order_without_a_copy() {
+        let orders: [&[usize]; 6] = [
+            &[0, 1, 2, 3, 4, 5],
+            &[1, 3, 4],
+            &[2, 5, 0, 1, 4],
+            &[5, 4, 3, 2, 1, 0],
+            &[3, 0, 1, 2],
+            &[],
+        ];
+        for order in orders {
+            let mut field: Vec<usize> = (0..6 * BRICK_SAMPLES).collect();
+            let wanted: Vec<usize> = order
+                .iter()
+                .flat_map(|i| i * BRICK_SAMPLES..(i + 1) * BRICK_SAMPLES)
+                .collect();
+            put_in_order(&mut field, order);
+            assert_eq!(field[..wanted.len()], wanted, "{order:?}");
+        }
+        put_in_order::<f32>(&mut [], &[1, 0]);
+    }
 }
