@@ -16,6 +16,7 @@ mod furnace;
 mod glow;
 mod null_collision;
 mod orders;
+mod plain;
 mod scattering;
 mod z_test;
 
