@@ -1,8 +1,9 @@
 //! How well a set of wavelengths holds the spectra of a scene.
 //!
 //! Spectra that a scene may send are integrated over the whole observer, every 5 nm, with the finest set, and with the set:
-//! black bodies of the fire's temperatures behind its soot, what its soot scatters of them, and what a coloured surface sends
-//! back. The greatest difference is the bound. A spectrum of several temperatures is a sum of such, and no worse.
+//! black bodies of the fire's temperatures behind its soot, which takes light by what it absorbs, or by what it scatters as
+//! well; what its soot scatters of them, and what a coloured surface sends back. The greatest difference is the bound. A
+//! spectrum of several temperatures is a sum of such, and no worse.
 
 use std::sync::LazyLock;
 
@@ -185,25 +186,35 @@ pub(super) fn bound(scene: &Scene, set: &Wavelengths, scattered: f64) -> f64 {
     let fine: Vec<f64> = (0..=count)
         .map(|i| RANGE_NM[0] + STEP_NM * f64::from(i))
         .collect();
-    let at_depth = flame.absorption_per_sample(DEPTH_NM);
+    let absorption = |nm: f64| flame.absorption_per_sample(nm);
+    let extinction = |nm: f64| absorption(nm) + flame.scattering_per_sample(nm)[0];
     let tints = Tints::of(scene, scattered);
     let factors = tints.each(scene);
     let mut greatest = 0.0_f64;
     for kelvin in TEMPERATURES.map(|share| share * hottest) {
         for depth in DEPTHS {
-            let light = |nm: f64| {
-                let dimmed = (-depth * flame.absorption_per_sample(nm) / at_depth).exp();
-                dimmed * blackbody::spectral_radiance(nm, kelvin)
-            };
-            greatest = greatest.max(error(set, &fine, light));
-            for (i, tint) in factors.iter().enumerate() {
-                let share = if tints.scattered && i == 0 {
-                    scattered.min(1.0)
-                } else {
-                    1.0
+            for by_extinction in [false, true] {
+                if by_extinction && !(tints.scattered && depth > 0.0) {
+                    continue;
+                }
+                let light = |nm: f64| {
+                    let of_depth = if by_extinction {
+                        extinction(nm) / extinction(DEPTH_NM)
+                    } else {
+                        absorption(nm) / absorption(DEPTH_NM)
+                    };
+                    (-depth * of_depth).exp() * blackbody::spectral_radiance(nm, kelvin)
                 };
-                let tinted = error(set, &fine, |nm| light(nm) * tint(nm));
-                greatest = greatest.max(share * tinted);
+                greatest = greatest.max(error(set, &fine, light));
+                for (i, tint) in factors.iter().enumerate() {
+                    let share = if tints.scattered && i == 0 {
+                        scattered.min(1.0)
+                    } else {
+                        1.0
+                    };
+                    let tinted = error(set, &fine, |nm| light(nm) * tint(nm));
+                    greatest = greatest.max(share * tinted);
+                }
             }
         }
     }
