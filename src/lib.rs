@@ -20,7 +20,7 @@
 //!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot and how it bends light, how finely and
 //!                 in which means each brick is looked at, Camera,
 //!                 Stage, wavelength sets
-//!  3 volume       grids in memory and on disk, field mappings, the built-in flames
+//!  3 volume       grids in memory and on disk, which of them a field is made from and how, the built-in flames
 //!  2 physics      laws: f64, SI, no grids, no pictures
 //!    colour       the standard observer, adaptation, display
 //!  1 spectral     wavelengths with weights

@@ -326,7 +326,7 @@ fn a_sequence_keeps_the_effects_of_its_first_frame() {
         project.set("render.size=[32, 32]").unwrap();
         project.smoke.amount = smoke;
         if let Some(effects) = effects {
-            project.effects = effects.into();
+            project.effects = effects;
         }
         let job = project.job(volume).unwrap();
         let plan = Plan::new(&job.scene(None), &job.settings);
@@ -352,7 +352,8 @@ fn a_sequence_keeps_the_effects_of_its_first_frame() {
             .any(|it| it.effect == Effect::Smoke && it.on)
     };
     for volume in &volumes {
-        let (next, _) = plan(volume, much, Some(locked));
+        let (next, effects) = plan(volume, much, Some(locked));
+        assert_eq!(effects, locked, "nothing is left to be decided");
         assert_eq!(states(&next), states(&first), "{:?}", volume.sources);
         assert!(has_smoke(&plan(volume, much, None).0));
         assert!(has_smoke(&plan(volume, little, Some(with_smoke)).0));

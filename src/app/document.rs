@@ -111,6 +111,7 @@ impl Document {
 
     fn restore(&mut self, open: Option<Arc<OpenVolume>>) {
         if !is_same(self.open.as_ref(), open.as_ref()) {
+            self.given_up = None;
             self.open = open;
             self.job = None;
             self.asked = None;
@@ -145,6 +146,10 @@ impl Document {
     pub fn job(&mut self, canvas: [u32; 2]) -> Option<&Job> {
         if self.lacking().is_some() {
             return self.job.as_ref();
+        }
+        let open = self.open.as_ref()?;
+        if open.volume.lacks(&self.project.wanted()).is_none() {
+            self.given_up = None;
         }
         let canvas = self.fixed_size.unwrap_or(canvas);
         let volume = &self.open.as_ref()?.volume;

@@ -104,6 +104,11 @@ impl Project {
         let mut flaws = Flaws::default();
         let fields = &self.volume;
         let (maps, proposed) = field_maps(fields, volume, producer, &preset, &mut flaws)?;
+        if let Some(name) = volume.lacks(&self.wanted()) {
+            flaws.add(format!(
+                "{name} was not read from the file: the picture is without it"
+            ));
+        }
         let up = match fields.up {
             Up::Auto => preset.up,
             Up::Y => UpAxis::Y,
@@ -300,9 +305,9 @@ impl Project {
                 wavelengths: if self.render.wavelengths.is_some() {
                     Switch::Off
                 } else {
-                    Switch::Auto
+                    self.effects.wavelengths
                 },
-                ..self.effects.into()
+                ..self.effects
             },
         }
         .validated()

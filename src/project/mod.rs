@@ -25,8 +25,8 @@ pub use idle::{Control, why_idle};
 pub use job::Job;
 pub use presets::{PRESETS, Preset};
 pub use settings::{
-    AirSettings, BackdropKind, CameraSettings, EffectSettings, FieldSettings, FuelSettings,
-    Project, Quality, RenderSettings, Saturation, SmokeSettings, SootSettings, StageSettings, Up,
-    ViewSettings, VolumeSettings,
+    AirSettings, BackdropKind, CameraSettings, FieldSettings, FuelSettings, Project, Quality,
+    RenderSettings, Saturation, SmokeSettings, SootSettings, StageSettings, Up, ViewSettings,
+    VolumeSettings,
 };
 pub use stage::StageDefaults;

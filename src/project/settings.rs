@@ -10,16 +10,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
+use crate::render::Effects;
 use crate::scene::{Camera, Fuel, Salt};
 use crate::volume::{BuiltIn, Producer};
 
 mod air;
-mod effects;
 mod render;
 mod stage;
 
 pub use air::{AirSettings, Saturation};
-pub use effects::EffectSettings;
 pub use render::{Quality, RenderSettings};
 pub use stage::{BackdropKind, StageSettings};
 
@@ -40,7 +39,7 @@ pub struct Project {
     /// What stands around the fire.
     pub stage: StageSettings,
     /// Which effects are computed.
-    pub effects: EffectSettings,
+    pub effects: Effects,
     /// Where the eye is.
     pub camera: CameraSettings,
     /// How accurate, and how large.

@@ -75,8 +75,9 @@ pub struct Settings {
     pub effects: Effects,
 }
 
-/// Which effects are computed; what is not in the scene costs nothing either way.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// Which effects are computed; what is not in the scene costs nothing either way. In a scene file `[effects]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Effects {
     /// Lines of a salt's atoms. Auto: where they can be seen.
     pub lines: Switch,
@@ -96,7 +97,9 @@ pub struct Effects {
     pub smoke: Switch,
     /// Light scattered more than once, by fields and without noise. Auto: where it can be seen.
     pub scattering_orders: Switch,
-    /// More wavelengths than the settings say. Auto: where those are too few for the colours of the scene.
+    /// More wavelengths than the settings say. Auto: where those are too few for the colours of the scene. A person sets
+    /// their number instead.
+    #[serde(skip)]
     pub wavelengths: Switch,
 }
 

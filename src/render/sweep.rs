@@ -235,7 +235,7 @@ impl Kernel for Row<'_, '_> {
                 let own = ray * chunks..(ray + 1) * chunks;
                 let filled = four.iter().any(|&cell| cells.filled[cell]);
                 if filled || *was_filled {
-                    step(
+                    step::<A>(
                         sweep,
                         four.map(|cell| cell * chunks),
                         weights,
@@ -266,7 +266,7 @@ fn shifted<T: Copy>(values: &mut [T], by: i64, new: T) {
 
 /// Takes a ray from one layer to the next, where it finds the weighted mean of four records.
 #[inline(always)]
-fn step(
+fn step<A: Arithmetic>(
     sweep: &Sweep<'_>,
     four: [usize; 4],
     weights: [f32; 4],
@@ -291,7 +291,7 @@ fn step(
         let light = &mut carried[chunk];
         for lane in 0..WIDE {
             let depth = soot[lane] * amounts[0] + smoke[lane] * amounts[1];
-            let lost = -lanes::exp_m1(-depth);
+            let lost = -lanes::exp_m1_by::<A>(-depth);
             let phi = if depth > CLEAR_DEPTH {
                 lost / depth
             } else {

@@ -118,7 +118,7 @@ impl Kernel for Glowing<'_> {
         for (glow, nm) in self.glows.iter_mut().zip(*MEANS_NM) {
             let exponent = (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32;
             for (glow, [fraction, kelvin]) in glow.iter_mut().zip(self.samples) {
-                *glow = fraction.max(0.0) * lanes::inverse_exp_m1(exponent / kelvin);
+                *glow = fraction.max(0.0) * lanes::inverse_exp_m1_by::<A>(exponent / kelvin);
             }
         }
     }

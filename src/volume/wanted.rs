@@ -108,19 +108,17 @@ impl Wanted {
 }
 
 impl Volume {
-    /// Whether there are grids that were left unread, and that are wanted now.
-    pub fn lacks(&self, wanted: &Wanted) -> bool {
+    /// A grid that was left unread, and that is wanted now.
+    pub fn lacks(&self, wanted: &Wanted) -> Option<&str> {
         if self.unread.is_empty() || self.read_for == *wanted {
-            return false;
+            return None;
         }
         let read = self
             .grids
             .iter()
             .map(|grid| (grid.name.as_str(), Some(grid)));
         let unread = self.unread.iter().map(|grid| (grid.name.as_str(), None));
-        wanted
-            .next(&read.chain(unread).collect::<Vec<_>>())
-            .is_some()
+        wanted.next(&read.chain(unread).collect::<Vec<_>>())
     }
 
     /// The names of all scalar grids, read or not.

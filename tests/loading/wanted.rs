@@ -1,6 +1,7 @@
 //! Only grids that something needs are read.
 
 use std::fs;
+use std::sync::Arc;
 
 use sootlight::project::Project;
 use sootlight::volume::{Wanted, Watch, open_wanted};
@@ -82,9 +83,21 @@ fn what_no_active_effect_reads_is_not_read() {
                 assert!(voxels(bounds.min, bounds.max).all(|it| read.value(it) == same.value(it)));
             }
         }
-        assert!(fields.lacks(&wanted(&["volume.flame.grid=fuel"])));
-        assert!(few.lacks(&wanted(&BOTH_OFF[..1])) && few.lacks(&wanted(&[])));
-        assert!(!fields.lacks(&wanted(&BOTH_OFF)) && !fields.lacks(&wanted(&[])));
+        assert_eq!(
+            fields.lacks(&wanted(&["volume.flame.grid=fuel"])),
+            Some("fuel")
+        );
+        assert_eq!(few.lacks(&wanted(&BOTH_OFF[..1])), Some("density"));
+        assert_eq!(few.lacks(&wanted(&[])), Some("flame"));
+        assert_eq!(fields.lacks(&wanted(&BOTH_OFF)), None);
+        assert_eq!(fields.lacks(&wanted(&[])), None);
+        // Whoever renders without what is wanted is told.
+        let job = Project::default().job(&Arc::new(few)).unwrap();
+        assert!(
+            job.flaws
+                .iter()
+                .any(|it| it.starts_with("flame was not read"))
+        );
     }
 }
 

@@ -294,10 +294,8 @@ fn a_grid_is_read_once_something_needs_it_and_undo_knows_nothing_of_it() {
 fn a_grid_that_cannot_be_read_any_more_leaves_the_picture_and_says_why() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("fire.vdb");
-    crate::common::write_vdb(
-        &path,
-        &[("density", 2e-6), ("fuel", 0.7), ("temperature", 1900.0)],
-    );
+    let grids = [("density", 2e-6), ("fuel", 0.7), ("temperature", 1900.0)];
+    crate::common::write_vdb(&path, &grids);
     let mut project = Project::default();
     project.volume.path = vec![path.clone()];
     let mut harness = controls::tall_window(project);
@@ -315,4 +313,13 @@ fn a_grid_that_cannot_be_read_any_more_leaves_the_picture_and_says_why() {
     controls::choose(&mut harness, "Soot from", "density");
     settle(&mut harness);
     assert_eq!(harness.state().document().problem(), None);
+    // The file is back: asked for again, it is read again.
+    crate::common::write_vdb(&path, &grids);
+    controls::choose(&mut harness, "Soot from", "fuel");
+    settle(&mut harness);
+    assert_eq!(harness.state().document().problem(), None);
+    assert_eq!(
+        controls::job(&harness).flame.maps.soot.expect("soot").grid,
+        "fuel"
+    );
 }

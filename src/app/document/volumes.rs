@@ -94,7 +94,7 @@ impl Document {
     pub fn lacking(&self) -> Option<Wanted> {
         let volume = self.volume()?;
         let wanted = self.project.wanted();
-        let is_new = volume.lacks(&wanted) && self.given_up.as_ref() != Some(&wanted);
+        let is_new = volume.lacks(&wanted).is_some() && self.given_up.as_ref() != Some(&wanted);
         is_new.then_some(wanted)
     }
 
@@ -121,7 +121,7 @@ impl Document {
         self.restore(filled);
     }
 
-    /// Gives up on what is lacking, until something else is wanted.
+    /// Gives up on what is lacking, until something else is wanted or open.
     pub fn do_without_the_rest(&mut self) {
         self.given_up = self.lacking();
     }

@@ -88,7 +88,11 @@ fn every_kind_of_request_stops_when_told() {
         Request::BuiltIn(BuiltIn::Torch),
         Request::Project(vec![file.clone()], Wanted::default()),
         Request::Files(vec![file.clone()], Wanted::default()),
-        Request::Partner(open, file),
+        Request::Partner(Arc::clone(&open), file.clone()),
+        Request::Lacking(
+            Arc::new(volume::open(&[file], &Limits::default()).unwrap()),
+            Wanted::everything(),
+        ),
     ] {
         let name = request.words();
         assert!(!matches!(

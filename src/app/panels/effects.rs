@@ -4,16 +4,16 @@ use egui::Ui;
 
 use super::knob::{Choice, name, note};
 use super::{Known, section, short};
-use crate::project::{Control, EffectSettings};
-use crate::render::Switch;
+use crate::project::Control;
 use crate::render::costs::Cost;
 use crate::render::plan::{Decision, Effect};
+use crate::render::{Effects, Switch};
 
 /// An effect: its name among the plan's decisions, its label, what it is, and its switch.
 type Row<'a> = (Effect, &'static str, &'static str, &'a mut Switch);
 
 /// Draws the section.
-pub(super) fn show(ui: &mut Ui, effects: &mut EffectSettings, known: Known<'_>) {
+pub(super) fn show(ui: &mut Ui, effects: &mut Effects, known: Known<'_>) {
     section(ui, "Effects", true, |ui| {
         // Nobody switches soot: it is the fire.
         told(
@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, effects: &mut EffectSettings, known: Known<'_>) 
 }
 
 /// What can be switched, in the order of the plan.
-fn rows(effects: &mut EffectSettings) -> [Row<'_>; 9] {
+fn rows(effects: &mut Effects) -> [Row<'_>; 9] {
     [
         (
             Effect::Smoke,
