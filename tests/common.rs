@@ -8,6 +8,7 @@ use glam::{DAffine3, DVec3, IVec3};
 use sootlight::project::{Job, Project};
 use sootlight::render::{Effects, Settings, Switch};
 use sootlight::scene::{Camera, Scene};
+use sootlight::spectral::Wavelengths;
 use sootlight::volume::{self, Border, Grid, Limits, Producer, Volume};
 
 /// The folder of shared volumes, or `None` with a word in print.
@@ -53,6 +54,16 @@ pub(crate) fn scattered_alone(scattering: Switch) -> Effects {
         refraction: Switch::Off,
         wavelengths: Switch::Off,
         ..Effects::AUTO
+    }
+}
+
+/// Three wavelengths whose radiances land in X, Y and Z as they are.
+pub(crate) fn three(nodes_nm: [f64; 3]) -> Wavelengths {
+    let unit = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    Wavelengths {
+        nodes_nm: nodes_nm.to_vec(),
+        xyz: unit.clone(),
+        opacity: unit,
     }
 }
 

@@ -9,7 +9,7 @@ use sootlight::scene::{Camera, Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
 use sootlight::volume::{Border, Grid, Volume};
 
-use super::common;
+use super::common::{self, three};
 
 mod fire_light;
 mod furnace;
@@ -68,16 +68,6 @@ fn settings(size: u32, step_voxels: f64, set: WavelengthSet) -> Settings {
         samples_per_pixel: 1,
         scattering_orders: 1,
         effects: common::scattered_alone(Switch::Off),
-    }
-}
-
-/// Three wavelengths whose radiances land in X, Y and Z as they are.
-fn three(nodes_nm: [f64; 3]) -> Wavelengths {
-    let unit = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    Wavelengths {
-        nodes_nm: nodes_nm.to_vec(),
-        xyz: unit.clone(),
-        opacity: unit,
     }
 }
 

@@ -17,10 +17,9 @@ use sootlight::project::{Project, ProjectError};
 use sootlight::render::Plan;
 use sootlight::render::march::Marcher;
 use sootlight::scene::{Camera, Scene};
-use sootlight::spectral::Wavelengths;
 use sootlight::volume::{FieldKind, Volume};
 
-use super::common;
+use super::common::{self, three};
 
 mod air;
 mod colour;
@@ -114,16 +113,6 @@ fn fraction_of_depth(depth: f64, lambda_nm: f64) -> f64 {
 /// Optical depth of the slab.
 fn depth_of(scene: &Scene, volume_fraction: f64, lambda_nm: f64) -> f64 {
     scene.flame.absorption_per_sample(lambda_nm) * f64::from(volume_fraction as f32) * LENGTH_M
-}
-
-/// Three wavelengths whose radiances land in X, Y and Z as they are.
-fn three(nodes_nm: [f64; 3]) -> Wavelengths {
-    let unit = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    Wavelengths {
-        nodes_nm: nodes_nm.to_vec(),
-        xyz: unit.clone(),
-        opacity: unit,
-    }
 }
 
 /// What the march sees along the middle of the picture at three wavelengths.
