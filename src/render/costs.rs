@@ -6,16 +6,12 @@
 
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
-
 use super::clock::timed;
 use super::fields::Fields;
-use super::march::{Marcher, PACKET_SIDE};
-use super::orders::HigherOrders;
-use super::pass::offset;
+use super::packets::Packets;
+use super::part::Part;
 use super::plan::{Effect, Plan, is_on};
 use super::{Cancel, Level, Settings};
-use crate::math::lanes::LANES;
 use crate::scene::Scene;
 
 /// What an effect takes of a picture's time.
@@ -123,29 +119,22 @@ fn march(
     cancel: &Cancel,
 ) -> Option<f64> {
     let by_paths = pictures.iter().any(|(plan, _)| plan.orders > 1);
-    let packets = packets(
+    let part = Part::spread(
         settings.size,
         if by_paths { PACKETS_BY_PATHS } else { PACKETS },
     );
-    let rays = packets.iter().flatten().flatten().count().max(1) as f64;
-    let all = settings.pixels() as f64 * f64::from(settings.samples_per_pixel);
-    let mut samples = Vec::with_capacity(pictures.len());
-    for (plan, fields) in pictures {
-        let marcher = Marcher::with_fields(scene, plan, fields, settings.step_voxels)
-            .ok()?
-            .for_a_picture();
-        let higher = (plan.orders > 1).then(|| HigherOrders::new(scene, &plan.tables, plan.orders));
-        samples.push((marcher, higher));
-    }
+    let [here, there] = pictures
+        .map(|(plan, fields)| Packets::new(scene, plan, fields, settings.step_voxels, true));
+    let of_pixel = f64::from(settings.samples_per_pixel);
     let mut took = [Vec::new(), Vec::new()];
+    let both = [here.ok()?, there.ok()?];
     'rounds: for _ in 0..ROUNDS {
         // By turns, so that what else the machine does falls on both.
-        for (took, (marcher, higher)) in took.iter_mut().zip(&samples) {
-            let (whole, seconds) = timed(|| march_all(marcher, higher.as_ref(), &packets, cancel));
-            if !whole {
+        for (took, packets) in took.iter_mut().zip(&both) {
+            let Some(rendered) = part.render_with(packets, 0..1, cancel) else {
                 break 'rounds;
-            }
-            took.push(seconds * all / rays);
+            };
+            took.push(of_pixel * rendered.wall_s);
         }
     }
     let [(here, off_here), (there, off_there)] = [middle(&mut took[0])?, middle(&mut took[1])?];
@@ -154,29 +143,6 @@ fn march(
         more
     } else {
         0.0
-    })
-}
-
-/// Marches every packet; `false` if cancelled.
-fn march_all(
-    marcher: &Marcher<'_>,
-    higher: Option<&HigherOrders<'_>>,
-    packets: &[[Option<[f64; 2]>; LANES]],
-    cancel: &Cancel,
-) -> bool {
-    packets.par_iter().all(|points| {
-        if cancel.is_cancelled() {
-            return false;
-        }
-        let (mut pixels, _) = marcher.march(points);
-        for (pixel, point) in pixels.iter_mut().zip(points) {
-            if let (Some(higher), Some(point)) = (higher, point) {
-                higher.add(*point, 0, pixel, cancel);
-            }
-        }
-        // What nobody looks at would not be marched.
-        std::hint::black_box(pixels);
-        true
     })
 }
 
@@ -189,50 +155,9 @@ fn middle(values: &mut [f64]) -> Option<(f64, f64)> {
     Some((median, *off.get(off.len() / 2)?))
 }
 
-/// The centres of the pixels of at most so many packets, spread evenly over the picture.
-fn packets(size: [u32; 2], most: usize) -> Vec<[Option<[f64; 2]>; LANES]> {
-    let across = size.map(|side| side.div_ceil(PACKET_SIDE));
-    let all = across[0] as usize * across[1] as usize;
-    let count = all.min(most);
-    let corner = |i: usize| -> [u32; 2] {
-        if count == all {
-            return [i as u32 % across[0], i as u32 / across[0]];
-        }
-        let spread = offset(i as u32);
-        std::array::from_fn(|axis| (spread[axis] * f64::from(across[axis])) as u32)
-    };
-    let of = |i: usize| {
-        let corner = corner(i).map(|side| side * PACKET_SIDE);
-        std::array::from_fn(|lane| {
-            let x = corner[0] + lane as u32 % PACKET_SIDE;
-            let y = corner[1] + lane as u32 / PACKET_SIDE;
-            (x < size[0] && y < size[1]).then(|| [f64::from(x) + 0.5, f64::from(y) + 0.5])
-        })
-    };
-    (0..count).map(of).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn packets_are_all_of_a_small_picture_and_spread_over_a_large_one() {
-        let rays = |size| packets(size, PACKETS).iter().flatten().flatten().count();
-        assert_eq!(rays([13, 6]), 13 * 6);
-        let large = packets([1001, 703], PACKETS);
-        assert_eq!(large.len(), PACKETS);
-        for quarter in [[0.0, 0.0], [500.0, 0.0], [0.0, 350.0], [500.0, 350.0]] {
-            let inside = large.iter().filter(|packet| {
-                packet[0].is_some_and(|[x, y]| {
-                    (quarter[0]..quarter[0] + 500.0).contains(&x)
-                        && (quarter[1]..quarter[1] + 350.0).contains(&y)
-                })
-            });
-            let share = inside.count() as f64 / PACKETS as f64;
-            assert!((share - 0.25).abs() < 0.03, "{quarter:?}: {share}");
-        }
-    }
 
     #[test]
     fn the_middle_is_no_matter_of_what_goes_astray() {

@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::film::{Pixel, Tile};
-use super::march::{Marcher, PACKET_SIDE};
-use super::orders::HigherOrders;
+use super::march::PACKET_SIDE;
+use super::packets::Packets;
 use super::{Cancel, Level, Plan, Settings};
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
@@ -84,20 +84,18 @@ pub fn render_pass(
     let Some(fields) = plan.fields(scene, level, cancel) else {
         return false;
     };
-    let Ok(marcher) = Marcher::with_fields(scene, plan, fields, pass.step_voxels) else {
+    // Coarse passes are for speed.
+    let by_paths = pass.stride == 1;
+    let Ok(packets) = Packets::new(scene, plan, fields, pass.step_voxels, by_paths) else {
         return true;
     };
-    let marcher = marcher.for_a_picture();
-    // Coarse passes are for speed.
-    let higher = (plan.orders > 1 && pass.stride == 1)
-        .then(|| HigherOrders::new(scene, &plan.tables, plan.orders));
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
     let tiles = centre_out(rays);
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     rayon::broadcast(|_| {
         while let Some(&corner) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) {
             let size = [0, 1].map(|axis| TILE.min(rays[axis] - corner[axis]));
-            match render_tile(&marcher, higher.as_ref(), pass, corner, size, cancel) {
+            match render_tile(&packets, pass, corner, size, cancel) {
                 Some(tile) => sink(tile),
                 None => stopped.store(true, Ordering::Relaxed),
             }
@@ -122,8 +120,7 @@ fn centre_out(rays: [u32; 2]) -> Vec<[u32; 2]> {
 
 /// `None` if cancelled.
 fn render_tile(
-    marcher: &Marcher<'_>,
-    higher: Option<&HigherOrders<'_>>,
+    packets: &Packets<'_>,
     pass: &Pass,
     corner: [u32; 2],
     size: [u32; 2],
@@ -134,9 +131,6 @@ fn render_tile(
     let offset = offset(pass.sample);
     for top in (0..size[1]).step_by(PACKET_SIDE as usize) {
         for left in (0..size[0]).step_by(PACKET_SIDE as usize) {
-            if cancel.is_cancelled() {
-                return None;
-            }
             // Steps of a packet: which pixels, which rays, the march, and back to their places.
             let places: [Option<[u32; 2]>; LANES] = std::array::from_fn(|lane| {
                 let place = [
@@ -151,15 +145,9 @@ fn render_tile(
                 };
                 place.map(|[x, y]| [on_picture(0, x), on_picture(1, y)])
             });
-            let (packet, taken) = marcher.march(&points);
+            let (packet, taken) = packets.render(&points, pass.sample, cancel)?;
             samples += taken;
-            for ((place, point), mut pixel) in places.iter().zip(points).zip(packet) {
-                if let (Some(higher), Some(point)) = (higher, point) {
-                    higher.add(point, pass.sample, &mut pixel, cancel);
-                    if cancel.is_cancelled() {
-                        return None;
-                    }
-                }
+            for (place, pixel) in places.iter().zip(packet) {
                 if let Some([x, y]) = place {
                     pixels[(y * size[0] + x) as usize] = pixel;
                 }
