@@ -12,6 +12,7 @@
 //!  9 cli          flags → validated command: window | render | info | spectrum
 //!  8 app          the window (feature `window`)
 //!  7 engine       background rendering for the window: submit(Job), drain() → tiles
+//!    study        accuracy against time: variants, reference, the front; which numbers are good enough
 //!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written
 //!  6 project      all that a person can set: the scene file, --set, presets
 //!  5 render       THE CORE: plan and tables; fields of scattered, thrown and bent light; ways, kernel and march; film,
@@ -57,4 +58,5 @@ pub mod project;
 pub mod render;
 pub mod scene;
 pub mod spectral;
+pub mod study;
 pub mod volume;

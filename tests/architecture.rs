@@ -11,6 +11,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("app", 8),
     ("engine", 7),
     ("export", 7),
+    ("study", 7),
     ("project", 6),
     ("render", 5),
     ("scene", 4),

@@ -21,5 +21,6 @@ mod hard_cases;
 mod loading;
 mod render;
 mod screenshots;
+mod study;
 #[cfg(feature = "window")]
 mod window;

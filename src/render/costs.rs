@@ -131,7 +131,7 @@ fn march(
     'rounds: for _ in 0..ROUNDS {
         // By turns, so that what else the machine does falls on both.
         for (took, packets) in took.iter_mut().zip(&both) {
-            let Some(rendered) = part.render_with(packets, 0..1, cancel) else {
+            let Some(rendered) = part.render_with(packets, 1, cancel) else {
                 break 'rounds;
             };
             took.push(of_pixel * rendered.wall_s);

@@ -47,6 +47,7 @@ mod scatter;
 mod shift;
 mod spans;
 mod spread;
+mod subpixel;
 mod sweep;
 pub mod tables;
 mod walk;

@@ -4,7 +4,6 @@
 //! What a part gives is what the picture gives there, to the last bit. What it takes is told for the whole picture: each
 //! group of packets stands for all of its kind (W. G. Cochran, *Sampling Techniques* (1977), ch. 5: stratified sampling).
 
-use std::ops::Range;
 use std::sync::Mutex;
 
 use rayon::prelude::*;
@@ -13,8 +12,7 @@ use super::clock::{timed, timed_alone};
 use super::difference::LIT;
 use super::march::PACKET_SIDE;
 use super::packets::{Packets, Points};
-use super::pass::offset;
-use super::{Cancel, Level, Pass, Plan, render_pass};
+use super::{Cancel, Level, Pass, Plan, render_pass, subpixel};
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
 
@@ -66,7 +64,7 @@ impl Part {
             if count == all {
                 return [i as u32 % across[0], i as u32 / across[0]];
             }
-            let spread = offset(i as u32);
+            let spread = evenly(i);
             std::array::from_fn(|axis| (spread[axis] * f64::from(across[axis])) as u32)
         };
         let corners: Vec<[u32; 2]> = (0..count)
@@ -128,14 +126,14 @@ impl Part {
         corners.flat_map(|&at| self.pixels(at)).flatten().collect()
     }
 
-    /// Renders these samples of every pixel in the calling thread's rayon pool, with the plan's fine fields, which are worked
+    /// Renders every pixel by so many samples in the calling thread's rayon pool, with the plan's fine fields, which are worked
     /// out if nobody has asked for them and are not on this clock. `None` if cancelled.
     pub fn render(
         &self,
         scene: &Scene,
         plan: &Plan,
         step_voxels: f64,
-        samples: Range<u32>,
+        samples: u32,
         cancel: &Cancel,
     ) -> Option<Rendered> {
         let fields = plan.fields(scene, Level::Fine, cancel)?;
@@ -147,7 +145,7 @@ impl Part {
     pub(super) fn render_with(
         &self,
         packets: &Packets<'_>,
-        samples: Range<u32>,
+        samples: u32,
         cancel: &Cancel,
     ) -> Option<Rendered> {
         let mut rendered = Rendered {
@@ -165,7 +163,7 @@ impl Part {
                 let chunks: Option<Vec<_>> = chunks
                     .map(|corners| {
                         let (made, cpu_s) =
-                            timed_alone(|| self.chunk(packets, corners, samples.clone(), cancel));
+                            timed_alone(|| self.chunk(packets, corners, samples, cancel));
                         Some((made?, cpu_s))
                     })
                     .collect();
@@ -188,7 +186,7 @@ impl Part {
         &self,
         packets: &Packets<'_>,
         corners: &[[u32; 2]],
-        samples: Range<u32>,
+        samples: u32,
         cancel: &Cancel,
     ) -> Option<(Vec<[f64; 3]>, u64)> {
         let mut means = Vec::with_capacity(LANES * corners.len());
@@ -196,8 +194,8 @@ impl Part {
         for &corner in corners {
             let pixels = self.pixels(corner);
             let mut sums = [[0.0; 3]; LANES];
-            for sample in samples.clone() {
-                let within = offset(sample);
+            for sample in 0..samples {
+                let within = subpixel::place(sample, samples);
                 let points: Points = pixels.map(|pixel| {
                     pixel.map(|[x, y]| [f64::from(x) + within[0], f64::from(y) + within[1]])
                 });
@@ -209,7 +207,7 @@ impl Part {
                     }
                 }
             }
-            let share = 1.0 / samples.len().max(1) as f64;
+            let share = 1.0 / f64::from(samples.max(1));
             let inside = sums
                 .iter()
                 .zip(&pixels)
@@ -227,6 +225,13 @@ impl Part {
             (x < self.size[0] && y < self.size[1]).then_some([x, y])
         })
     }
+}
+
+/// The `i`th of places that fill the unit square evenly, however many there are: the additive recurrence on the plastic number
+/// (M. Roberts 2018).
+fn evenly(i: usize) -> [f64; 2] {
+    const PLASTIC: f64 = 1.324717957244746;
+    [1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC)].map(|step| (0.5 + i as f64 * step).fract())
 }
 
 fn packets_across(size: [u32; 2]) -> [u32; 2] {
@@ -263,6 +268,7 @@ impl Look {
         let pass = Pass {
             stride,
             sample: 0,
+            samples: 1,
             step_voxels: LOOK_STEP_VOXELS,
         };
         let whole = render_pass(scene, plan, &pass, cancel, &|tile| {

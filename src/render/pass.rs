@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use super::film::{Pixel, Tile};
 use super::march::PACKET_SIDE;
 use super::packets::Packets;
-use super::{Cancel, Level, Plan, Settings};
+use super::{Cancel, Level, Plan, Settings, subpixel};
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
 
@@ -17,8 +17,10 @@ pub const TILE: u32 = 32;
 pub struct Pass {
     /// Pixels between rays, a power of two.
     pub stride: u32,
-    /// Which of the pixel's samples; 0 is the pixel's centre.
+    /// Which of the pixel's samples.
     pub sample: u32,
+    /// How many there are; the only one is the pixel's centre.
+    pub samples: u32,
     /// Length of a step in voxels.
     pub step_voxels: f64,
 }
@@ -46,21 +48,16 @@ pub fn ladder(settings: &Settings, audience: Audience) -> Vec<Pass> {
     let coarse = coarse.iter().map(|&stride| Pass {
         stride,
         sample: 0,
+        samples: 1,
         step_voxels: step_voxels.max(COARSE_STEP_VOXELS),
     });
     let full = (0..settings.samples_per_pixel).map(|sample| Pass {
         stride: 1,
         sample,
+        samples: settings.samples_per_pixel,
         step_voxels,
     });
     coarse.chain(full).collect()
-}
-
-/// Where in its pixel a sample lies: the additive recurrence on the plastic number (Roberts 2018), which fills
-/// the square evenly at every count and starts at the centre.
-pub(super) fn offset(sample: u32) -> [f64; 2] {
-    const PLASTIC: f64 = 1.324717957244746;
-    [1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC)].map(|step| (0.5 + f64::from(sample) * step).fract())
 }
 
 /// Renders one pass in the calling thread's rayon pool, tiles from the centre of the picture outwards, and hands
@@ -128,7 +125,7 @@ fn render_tile(
 ) -> Option<Tile> {
     let mut pixels = vec![Pixel::default(); (size[0] * size[1]) as usize];
     let mut samples = 0;
-    let offset = offset(pass.sample);
+    let offset = subpixel::place(pass.sample, pass.samples);
     for top in (0..size[1]).step_by(PACKET_SIDE as usize) {
         for left in (0..size[0]).step_by(PACKET_SIDE as usize) {
             // Steps of a packet: which pixels, which rays, the march, and back to their places.
@@ -188,15 +185,6 @@ mod tests {
             .collect();
         assert_eq!(strides, [8, 4, 2, 1, 1, 1]);
         assert_eq!(ladder(&SETTINGS, Audience::Still).len(), 3);
-    }
-
-    #[test]
-    fn the_first_sample_is_the_pixel_centre_and_the_rest_spread_evenly() {
-        assert_eq!(offset(0), [0.5, 0.5]);
-        let mean = (0..64)
-            .map(offset)
-            .fold([0.0; 2], |m, o| [m[0] + o[0] / 64.0, m[1] + o[1] / 64.0]);
-        assert!(mean.iter().all(|m| (m - 0.5).abs() < 0.02), "{mean:?}");
     }
 
     #[test]

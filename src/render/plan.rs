@@ -146,6 +146,11 @@ impl Plan {
         plan
     }
 
+    /// How many wavelengths are carried.
+    pub fn wavelengths(&self) -> u32 {
+        self.tables.nodes.len() as u32
+    }
+
     /// Whether the fields of a level are worked out, or there are none to work out.
     pub(super) fn has_fields(&self, level: Level) -> bool {
         self.wanted == Wanted::default() || self.fields[level as usize].get().is_some()

@@ -81,6 +81,7 @@ fn rays(scene: &Scene, plan: &Plan, sample: u32) -> Vec<[f64; 3]> {
     let pass = Pass {
         stride: 1,
         sample,
+        samples: SAMPLES,
         step_voxels: 1.0,
     };
     let film = Mutex::new(Film::new(SIZE));
@@ -206,6 +207,7 @@ fn a_cancelled_picture_of_higher_orders_gives_no_tile() {
     let pass = Pass {
         stride: 1,
         sample: 0,
+        samples: 1,
         step_voxels: 1.0,
     };
     let passed = Cancel::when_passed(Arc::new(1.into()), 0);

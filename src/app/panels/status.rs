@@ -211,6 +211,7 @@ mod tests {
             .map(|(stride, step_voxels)| Pass {
                 stride,
                 sample: 0,
+                samples: 1,
                 step_voxels,
             })
             .to_vec();

@@ -1,13 +1,50 @@
-//! A plan beside a plan: the same picture with one effect switched the other way, to measure what that effect takes.
+//! A plan beside a plan: the same picture with one effect switched the other way or at other wavelengths, to measure what
+//! that changes and takes.
 
 use super::effect::{Effect, is_on};
-use super::{Plan, wavelengths};
+use super::{Plan, flaws, wavelengths};
 use crate::render::fields::Fields;
 use crate::render::{Cancel, Level, Settings};
 use crate::scene::Scene;
 use crate::scene::glow::Kind;
 
 impl Plan {
+    /// The same effects at the wavelengths and steps of other settings, whatever their number of wavelengths is worth. What
+    /// bends light is taken over.
+    #[must_use]
+    pub fn at(&self, scene: &Scene, settings: &Settings) -> Self {
+        self.beside(scene, settings, |_| true)
+    }
+
+    /// The same without light that comes from all sides: nothing is scattered, and nothing falls on the stage. It needs no
+    /// fields but of what bends light.
+    #[must_use]
+    pub fn direct(&self, scene: &Scene, settings: &Settings) -> Self {
+        self.beside(scene, settings, |effect| {
+            !matches!(
+                effect,
+                Effect::Scattering | Effect::ScatteringOrders | Effect::FireLight
+            )
+        })
+    }
+
+    fn beside(&self, scene: &Scene, settings: &Settings, keeps: impl Fn(Effect) -> bool) -> Self {
+        let mut decisions = self.decisions.clone();
+        for decision in &mut decisions {
+            decision.on &= keeps(decision.effect);
+        }
+        let scattering = decisions.iter().find(|it| it.effect == Effect::Scattering);
+        let scattered = scattering.map_or(0.0, wavelengths::scattered_share);
+        let nodes = wavelengths::of(scene, settings.wavelengths, scattered);
+        let features = scene.flame.glow().features();
+        let mut plan = Self::deciding(scene, settings, nodes, features, decisions);
+        if plan.wanted.bent == self.wanted.bent {
+            plan.bent = self.bent.clone();
+        }
+        flaws::add(&mut plan, scene, settings);
+        plan
+    }
+
     /// The plan with one effect switched the other way, and what cannot be without it left out as well. `None` where that
     /// makes no picture of this scene: the effect has nothing to act on, or the scene was packed with it or without.
     pub(in crate::render) fn switched(

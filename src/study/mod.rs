@@ -1,0 +1,22 @@
+//! What accuracy costs in time: of this scene, on this machine.
+//!
+//! A [`Part`](crate::render::part::Part) of the picture, spread over where there is light, is rendered in several ways and
+//! compared with a reference of the same pixels: the shortest step, 64 wavelengths, 16 rays a pixel. What a part takes is
+//! scaled to the whole picture.
+//!
+//! * The [`Pilot`] is quick: it tries steps, wavelengths and rays each by themselves. Small differences add up pixel by pixel
+//!   ([`mod@sight`]), so the error of every choice of the three is known, and the cheapest that is good enough is chosen.
+//! * The [`Report`] measures every variant for itself, and is what `sootlight study` writes.
+//!
+//! Which numbers are chosen depends on the scene alone, never on a clock: what a choice costs is counted for that in samples
+//! and wavelengths, so that the same input gives the same picture. Seconds are only told.
+//!
+//! The reference is of this program's own: how far it is from a real fire nobody knows from it.
+
+mod numbers;
+mod pilot;
+mod sight;
+
+pub use numbers::{Numbers, RAYS, STEPS};
+pub use pilot::{Free, Pilot, Split};
+pub use sight::Error;

@@ -1,0 +1,53 @@
+//! The numbers that accuracy is made of, and which of them are tried.
+
+use crate::render::Settings;
+use crate::scene::WavelengthSet;
+
+/// Steps that are tried, voxels, longest first.
+pub const STEPS: [f64; 7] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
+/// Rays for each pixel that are tried.
+pub const RAYS: [u32; 5] = [1, 2, 4, 8, 16];
+
+/// How exactly a picture is computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Numbers {
+    /// Length of a step, voxels.
+    pub step_voxels: f64,
+    /// At which wavelengths light is carried.
+    pub wavelengths: WavelengthSet,
+    /// Rays for each pixel.
+    pub samples_per_pixel: u32,
+}
+
+impl Numbers {
+    /// Those of settings.
+    pub fn of(settings: &Settings) -> Self {
+        Self {
+            step_voxels: settings.step_voxels,
+            wavelengths: settings.wavelengths,
+            samples_per_pixel: settings.samples_per_pixel,
+        }
+    }
+
+    /// The same settings with these numbers.
+    #[must_use]
+    pub fn within(self, settings: &Settings) -> Settings {
+        Settings {
+            step_voxels: self.step_voxels,
+            wavelengths: self.wavelengths,
+            samples_per_pixel: self.samples_per_pixel,
+            ..*settings
+        }
+    }
+
+    /// In words: "step 2, 6 wavelengths, 1 ray".
+    pub fn in_words(self) -> String {
+        let rays = self.samples_per_pixel;
+        format!(
+            "step {}, {} wavelengths, {rays} {}",
+            self.step_voxels,
+            self.wavelengths.count(),
+            if rays == 1 { "ray" } else { "rays" }
+        )
+    }
+}
