@@ -160,7 +160,7 @@ fn statistics_have_the_keys_that_scripts_read() {
     let draft = |set: &str| {
         place.expect(
             0,
-            &format!("{SMALL} -o a.png --stats s.json --quality draft --threads 2 {set}"),
+            &format!("{SMALL} -o a.png --stats s.json --quality draft --threads 2 --set render.samples_per_pixel=1 {set}"),
         );
         serde_json::from_str::<serde_json::Value>(&place.text("s.json")).unwrap()
     };

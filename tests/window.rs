@@ -1,5 +1,6 @@
 //! The window, headless and by accessible label. No display is needed; what needs a graphics driver says so.
 
+mod accuracy;
 mod canvas;
 mod controls;
 mod export;
@@ -33,9 +34,17 @@ fn window(project: Project) -> Harness<'static, App> {
 fn window_of(project: Project, size: [f32; 2]) -> Harness<'static, App> {
     let mut harness = Harness::builder()
         .with_size(size)
-        .build_eframe(|creation| App::new(creation, project).expect("the system gives threads"));
+        .build_eframe(|creation| app(creation, project));
     settle(&mut harness);
     harness
+}
+
+/// A window whose numbers stay as for a scene that nobody has looked at: pictures are quick, and what is compared with them
+/// need not be looked at either. `accuracy` tests how they are chosen.
+fn app(creation: &eframe::CreationContext<'_>, project: Project) -> App {
+    let mut app = App::new(creation, project).expect("the system gives threads");
+    app.choose_numbers(false);
+    app
 }
 
 /// Draws frames until everything is loaded and rendered. The bound is only there so that a lost wake fails.

@@ -10,12 +10,13 @@ use std::sync::Arc;
 
 use super::history::History;
 use crate::colour::display::View;
-use crate::project::{Backdrops, CameraSettings, Job, Project, ViewSettings};
+use crate::project::{Accuracy, Backdrops, CameraSettings, Job, Project, ViewSettings};
 use crate::render::Facts;
 use crate::render::costs::Cost;
 use crate::render::develop::Metering;
 use crate::render::plan::Decision;
 use crate::scene::{Camera, flame};
+use crate::study::Numbers;
 use crate::volume::{FieldKind, Recognised, Volume, Wanted};
 
 /// Steps that can be taken back.
@@ -41,6 +42,8 @@ pub struct Document {
     pub facts: Facts,
     open: Option<Arc<OpenVolume>>,
     history: History<Step>,
+    /// Numbers that were chosen for a wish, in place of those for a scene that nobody has looked at.
+    chosen: Option<(Accuracy, Numbers)>,
     /// The last job that could be rendered.
     job: Option<Job>,
     /// What was last asked of the open volume: the answer stands while this does.
@@ -91,6 +94,7 @@ impl Document {
             facts: Facts::default(),
             open: None,
             history: History::default(),
+            chosen: None,
             job: None,
             asked: None,
             problem: None,
@@ -113,6 +117,7 @@ impl Document {
         if !is_same(self.open.as_ref(), open.as_ref()) {
             self.given_up = None;
             self.open = open;
+            self.chosen = None;
             self.job = None;
             self.asked = None;
         }
@@ -162,7 +167,13 @@ impl Document {
             return self.job.as_ref();
         }
         match sized.job_keeping(volume, &mut self.backdrops) {
-            Ok(job) => {
+            Ok(mut job) => {
+                if let Some((wished, numbers)) = self.chosen
+                    && wished == job.accuracy
+                {
+                    let given = Numbers::of(&job.settings);
+                    job.settings = numbers.where_free(wished, given).within(&job.settings);
+                }
                 self.job = Some(job);
                 self.problem = None;
             }
@@ -170,6 +181,20 @@ impl Document {
         }
         self.asked = Some(sized);
         self.job.as_ref()
+    }
+
+    /// From here on these numbers stand for this wish.
+    pub fn choose(&mut self, wished: Accuracy, numbers: Numbers) {
+        if self.chosen != Some((wished, numbers)) {
+            self.chosen = Some((wished, numbers));
+            self.asked = None;
+        }
+    }
+
+    /// Whether the numbers of the last valid job were chosen for its wish.
+    pub fn is_chosen(&self) -> bool {
+        let wished = self.job.as_ref().map(|job| job.accuracy);
+        wished.is_some_and(|wished| self.chosen.is_some_and(|(it, _)| it == wished))
     }
 
     /// The last valid job.

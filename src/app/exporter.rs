@@ -18,6 +18,7 @@ use thiserror::Error;
 use crate::export::{ExportError, Still, check_target};
 use crate::project::ProjectError;
 use crate::render::{Cancel, Flaws};
+use crate::study;
 
 pub(super) use order::{Exactness, Order, Wish};
 
@@ -263,7 +264,11 @@ fn export(
         if let Some(on_show) = order.effects {
             still = still.showing(&scene, on_show);
         }
-        let frame = still.render(&scene, cancel, progress)?;
+        let plan = still.plan(&scene);
+        let (settings, wished) = (still.job.settings, still.job.accuracy);
+        let aim = study::aim(&scene, plan, &settings, wished, None, cancel);
+        still.job.settings = aim.settings;
+        let frame = still.render_planned(&scene, &aim.plan, cancel, progress)?;
         let written = still.write(&frame, order.format, &order.path, cancel)?;
         Ok(written.flaws)
     })

@@ -10,7 +10,7 @@ use super::panels::Command;
 use super::{App, Closing};
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
-const SHORTCUTS: [(Modifiers, Key, Command); 7] = [
+const SHORTCUTS: [(Modifiers, Key, Command); 8] = [
     (
         Modifiers::COMMAND.plus(Modifiers::SHIFT),
         Key::Z,
@@ -22,6 +22,7 @@ const SHORTCUTS: [(Modifiers, Key, Command); 7] = [
     (Modifiers::COMMAND, Key::E, Command::OpenExport),
     (Modifiers::NONE, Key::N, Command::TogglePanel),
     (Modifiers::NONE, Key::S, Command::ToggleSpectrum),
+    (Modifiers::NONE, Key::C, Command::ToggleAccuracy),
 ];
 
 impl App {
@@ -50,6 +51,13 @@ impl App {
                 }
                 Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
                 Command::ToggleSpectrum => self.plots.toggle(),
+                Command::ToggleAccuracy => self.plots.toggle_accuracy(),
+                Command::Adopt(numbers) => self.document.change(|document| {
+                    let render = &mut document.project.render;
+                    render.step_voxels = Some(numbers.step_voxels);
+                    render.wavelengths = Some(numbers.wavelengths);
+                    render.samples_per_pixel = Some(numbers.samples_per_pixel);
+                }),
                 Command::Dismiss => self.notice = None,
                 Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
                 Command::Export(wish) => {

@@ -4,6 +4,7 @@
 //! say, [`App`] compares the job that the document stands for with the one it submitted, and submits what differs:
 //! the only place that does. Exposure, adaptation and curve are no part of a job; they only change the view.
 
+mod accuracy;
 mod canvas;
 mod document;
 mod exporter;
@@ -26,6 +27,7 @@ pub use canvas::{Display, Mapping};
 pub use document::{Document, FieldRow};
 pub use start::{AppError, run};
 
+use self::accuracy::{Accuracy, Told};
 use self::canvas::Canvas;
 use self::exporter::Exporter;
 use self::files::{Loader, Request};
@@ -50,6 +52,9 @@ pub struct App {
     engine: Engine,
     picture: Picture,
     meter: Meter,
+    accuracy: Accuracy,
+    /// What is said of the picture's error.
+    told: Option<Told>,
     canvas: Canvas,
     /// Size of the canvas in pixels, once it was laid out.
     canvas_size: Option<[u32; 2]>,
@@ -97,6 +102,7 @@ impl App {
             Engine::new(Engine::threads_beside_a_window(), tile_wake).map_err(AppError::Threads)?;
         let export_wake = ctx.clone();
         let exporter = Exporter::new(Arc::new(move || export_wake.request_repaint()));
+        let study_wake = ctx.clone();
         let load_wake = ctx.clone();
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
         loader.begin(match project.volume.path.as_slice() {
@@ -108,6 +114,8 @@ impl App {
             engine,
             picture: Picture::new([1, 1]),
             meter: Meter::default(),
+            told: None,
+            accuracy: Accuracy::new(Arc::new(move || study_wake.request_repaint())),
             canvas: Canvas::new(creation.wgpu_render_state.clone()),
             canvas_size: None,
             submitted: None,
@@ -162,6 +170,16 @@ impl App {
             && submitted == self.document.last_job()
             && self.renders_newest()
             && self.picture.progress.finished
+            && self
+                .document
+                .last_job()
+                .is_none_or(|job| self.accuracy.is_settled(job))
+    }
+
+    /// Whether step, wavelengths and rays are chosen for the quality that is wished, as they are from the start. If not, those
+    /// of a scene that nobody has looked at stay.
+    pub fn choose_numbers(&mut self, chooses: bool) {
+        self.accuracy.choose(chooses);
     }
 
     /// What went wrong last, in words, unless it was dismissed.
@@ -209,6 +227,7 @@ impl eframe::App for App {
         // A hidden window can be closed as well.
         self.guard_the_export(ctx);
         self.drain();
+        self.look();
         self.retitle(ctx);
         // A hidden window draws nothing, yet what was loaded begins to render.
         self.follow();
@@ -224,10 +243,20 @@ impl eframe::App for App {
 
         // Panels change the document, and ask for what they cannot do themselves.
         let before = self.document.project.clone();
+        let carried = self.engine.scene();
+        let carried = carried.map(|packed| packed.plan.wavelengths());
+        let job = self.document.last_job();
+        self.told = job.and_then(|job| self.accuracy.told(job, carried));
         panels::status(ui, self, &mut commands);
         let flaws: Vec<String> = self.flaws().into_iter().map(String::from).collect();
-        self.panels
-            .show(ui, &mut self.document, &self.recent, &flaws, &mut commands);
+        self.panels.show(
+            ui,
+            &mut self.document,
+            self.told.as_ref(),
+            &self.recent,
+            &flaws,
+            &mut commands,
+        );
 
         // The picture has all the space that is left.
         let canvas = ui.available_rect_before_wrap();
@@ -242,8 +271,22 @@ impl eframe::App for App {
         );
         self.canvas_size = Some(shown.size);
         let job = self.document.last_job();
+        if self.plots.shows_accuracy()
+            && let Some(job) = job
+        {
+            let is_idle = self.picture.progress.finished;
+            self.accuracy.measure(job, is_idle);
+        } else {
+            self.accuracy.stop_measuring();
+        }
+        let about = plots::Shown {
+            job,
+            view: &view,
+            accuracy: &self.accuracy,
+            told: self.told.as_ref(),
+        };
         self.plots
-            .show(&ctx, &self.engine, job, &view, &shown.place);
+            .show(&ctx, &self.engine, &about, &shown.place, &mut commands);
         panels::overlay(ui, self, canvas, &mut commands);
         let size = self.document.fixed_size.unwrap_or(shown.size);
         self.panels

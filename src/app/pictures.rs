@@ -9,6 +9,7 @@ use crate::engine::{Generation, Picture};
 use crate::project::Job;
 use crate::render::plan::Effect;
 use crate::render::{Effects, Facts};
+use crate::study::Numbers;
 
 /// So long a changed job waits for the first picture of the one before it.
 const LONGEST_WAIT: Duration = Duration::from_millis(250);
@@ -93,21 +94,52 @@ impl App {
         }
     }
 
+    /// Has the scene on show looked at, once there is a fine picture of it.
+    pub(super) fn look(&mut self) {
+        let Some(submitted) = &self.submitted else {
+            return;
+        };
+        let is_newest = self.document.last_job() == Some(&submitted.job) && self.renders_newest();
+        let mut whole = self.picture.progress.passes.iter();
+        let mut whole = whole.by_ref().take(self.picture.progress.done);
+        let is_fine = is_newest && whole.any(|pass| pass.stride == 1);
+        let packed = if is_fine { self.engine.scene() } else { None };
+        self.accuracy.follow(&submitted.job, packed, is_fine);
+    }
+
+    /// The document's job for a canvas, with the numbers that its quality comes to if the scene was looked at.
+    fn job_to_render(&mut self, canvas: [u32; 2]) -> Option<Job> {
+        let job = self.document.job(canvas)?.clone();
+        let Some(numbers) = self.accuracy.chosen(&job) else {
+            return Some(job);
+        };
+        self.document.choose(job.accuracy, numbers);
+        self.document.job(canvas).cloned()
+    }
+
     /// Submits the document's job if it is another than the one submitted last.
     pub(super) fn follow(&mut self) {
         let Some(size) = self.canvas_size else { return };
-        let Some(job) = self.document.job(size) else {
+        let Some(job) = self.job_to_render(size) else {
             return;
         };
         match &mut self.submitted {
             // The same picture may be meant by other numbers, such as a humidity that nothing shows.
-            Some(submitted) if submitted.job == *job => submitted.job = job.clone(),
+            Some(submitted) if submitted.job == job => submitted.job = job,
             // A slider that moves faster than pictures come would starve them all.
-            Some(submitted) if submitted.is_worth_waiting_for(job, &self.picture) => {}
-            _ => {
-                let generation = self.engine.submit(job.clone());
+            Some(submitted) if submitted.is_worth_waiting_for(&job, &self.picture) => {}
+            submitted => {
+                let chosen = self.document.is_chosen();
+                let is_the_same_view = submitted
+                    .as_ref()
+                    .is_some_and(|it| chosen && is_the_same_view(&it.job, &job));
+                let generation = if is_the_same_view {
+                    self.engine.refine(job.clone())
+                } else {
+                    self.engine.submit(job.clone())
+                };
                 self.submitted = Some(Submitted {
-                    job: job.clone(),
+                    job,
                     generation,
                     at: Instant::now(),
                     begun: None,
@@ -115,6 +147,17 @@ impl App {
             }
         }
     }
+}
+
+/// Whether two jobs differ by numbers that nobody set by hand.
+fn is_the_same_view(one: &Job, other: &Job) -> bool {
+    let mut same = one.clone();
+    let numbers =
+        Numbers::of(&other.settings).where_free(other.accuracy, Numbers::of(&one.settings));
+    same.settings = numbers.within(&one.settings);
+    // Whether wavelengths may be more follows from whether their number was set.
+    same.settings.effects.wavelengths = other.settings.effects.wavelengths;
+    same == *other
 }
 
 /// Takes over what the newest picture's plan decided, and what was found out on the way. What is not known yet of a

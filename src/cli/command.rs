@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{Args, ProjectArgs, RenderArgs, SpectrumArgs, Sub};
+use super::args::{Args, ProjectArgs, RenderArgs, SpectrumArgs, StudyArgs, Sub};
 use super::error::CliError;
 use crate::export::png::Bits;
 use crate::export::{Format, is_same_file};
@@ -17,6 +17,8 @@ pub(super) enum Command {
     Window(Box<Project>),
     /// Render a still.
     Render(Box<Render>),
+    /// Measure what accuracy costs.
+    Study(Box<Study>),
     /// Tell about a volume.
     Info(Box<Info>),
     /// Tabulate the optics of a place.
@@ -30,7 +32,17 @@ pub(super) struct Render {
     pub(super) output: PathBuf,
     pub(super) format: Format,
     pub(super) threads: usize,
+    /// Seconds of planning and rendering after which it stops.
+    pub(super) time_limit: Option<f64>,
     pub(super) stats: Option<PathBuf>,
+}
+
+/// A scene to measure.
+#[derive(Debug)]
+pub(super) struct Study {
+    pub(super) project: Project,
+    pub(super) folder: PathBuf,
+    pub(super) threads: usize,
 }
 
 /// A volume to tell about.
@@ -76,6 +88,7 @@ impl Command {
             Some(Sub::Render(args)) => {
                 Render::new(args).map(|render| Self::Render(Box::new(render)))
             }
+            Some(Sub::Study(args)) => Study::new(args).map(|study| Self::Study(Box::new(study))),
             Some(Sub::Spectrum(args)) => {
                 Spectrum::new(args).map(|spectrum| Self::Spectrum(Box::new(spectrum)))
             }
@@ -87,23 +100,51 @@ impl Render {
     fn new(args: RenderArgs) -> Result<Self, CliError> {
         let format = format(&args.output, args.bits.as_deref())?;
         let project = project(&args.project, |project| {
-            project.render.quality = args.quality.unwrap_or(project.render.quality);
+            if let Some(quality) = args.quality {
+                project.render.quality = quality;
+                project.render.target_error = None;
+            }
             project.render.size = args.size.unwrap_or(project.render.size);
         })?;
         if let Some(stats) = &args.stats {
             let picture = [(args.output.as_path(), "the picture")];
             refuse_lost_files("--stats", stats, &picture, &args.project, &project)?;
         }
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = args.threads.map_or_else(cores, usize::from);
+        let threads = threads(args.threads);
         Ok(Self {
             project,
             output: args.output,
             format,
             threads,
+            time_limit: args.time_limit,
             stats: args.stats,
         })
     }
+}
+
+impl Study {
+    fn new(args: StudyArgs) -> Result<Self, CliError> {
+        let project = project(&args.project, |project| {
+            project.render.size = args.size.unwrap_or(project.render.size);
+        })?;
+        if args.output.exists() && !args.output.is_dir() {
+            return Err(CliError::Usage(format!(
+                "-o {}: this is a file; name the folder to write the tables and charts into",
+                args.output.display()
+            )));
+        }
+        Ok(Self {
+            project,
+            folder: args.output,
+            threads: threads(args.threads),
+        })
+    }
+}
+
+/// As many as were asked for, or as there are cores.
+fn threads(asked: Option<u16>) -> usize {
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    asked.map_or_else(cores, usize::from)
 }
 
 impl Spectrum {

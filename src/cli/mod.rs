@@ -2,16 +2,19 @@
 //!
 //! Exit codes: 0 done, 1 failed, 2 wrong usage (an unknown flag, key, value or file ending).
 
+mod accuracy;
 mod args;
 mod command;
 mod error;
 mod info;
+mod json;
 mod load;
 mod output;
 mod plan;
 mod render;
 mod spectrum;
 mod stats;
+mod study;
 mod table;
 mod window;
 
@@ -52,6 +55,7 @@ impl Command {
         match self {
             Self::Window(project) => window::run(*project),
             Self::Render(render) => render.run(),
+            Self::Study(study) => study.run(),
             Self::Info(info) => info.run(),
             Self::Spectrum(spectrum) => spectrum.run(),
         }

@@ -2,14 +2,18 @@
 
 use std::time::{Duration, Instant};
 
+use super::accuracy::Accuracy;
 use super::command::Render;
 use super::error::CliError;
 use super::stats::{Seconds, Stats};
 use super::{load, output};
 use crate::export::{self, ExportError, Still};
+use crate::render::clock::timed_on_pool;
 use crate::render::costs::costs;
+use crate::render::still::render_until;
 use crate::render::{Cancel, Frame, Plan};
 use crate::scene::Scene;
+use crate::study;
 
 impl Render {
     /// Does it. The clock is read here only: what the core makes does not depend on time.
@@ -29,14 +33,21 @@ impl Render {
             })?;
 
         let (volume, load) = timed(|| pool.install(|| load::volume(&self.project)));
-        let still = Still::new(&self.project, &volume?, None).map_err(CliError::project)?;
+        let mut still = Still::new(&self.project, &volume?, None).map_err(CliError::project)?;
         let (scene, bake) = timed(|| pool.install(|| still.scene()));
+        let end = self
+            .time_limit
+            .and_then(|limit| Instant::now().checked_add(Duration::from_secs_f64(limit)));
         let planned = || {
-            let plan = still.plan(&scene);
-            let frame = with_a_bar(&still, &scene, &plan);
-            (plan, frame)
+            let (settings, wished) = (&still.job.settings, still.job.accuracy);
+            let never = Cancel::never();
+            let aim = study::aim(&scene, still.plan(&scene), settings, wished, end, &never);
+            still.job.settings = aim.settings;
+            let frame = with_a_bar(&still, &scene, &aim.plan, end);
+            (aim, frame)
         };
-        let ((plan, frame), render) = timed(|| pool.install(planned));
+        let ((aim, frame), took) = pool.install(|| timed_on_pool(planned));
+        let render = took.wall_s;
         let not_written = |error| CliError::failed("the picture was not written", error);
         let frame = frame.map_err(not_written)?;
         let (written, write) = timed(|| {
@@ -54,9 +65,11 @@ impl Render {
             let (threads, metering, flaws) = (self.threads, &metering, &flaws);
             let (settings, never) = (&still.job.settings, Cancel::never());
             let budget = MEASURING + Duration::from_secs_f64(MEASURING_SHARE * render);
-            let costs = pool.install(|| costs(&scene, settings, &plan, budget, &never));
+            let costs = pool.install(|| costs(&scene, settings, &aim.plan, budget, &never));
             let stats = Stats {
                 seconds,
+                render_cpu_s: took.cpu_s,
+                accuracy: Accuracy::of(&aim, still.job.accuracy, &frame),
                 threads,
                 project: &self.project,
                 job: &still.job,
@@ -89,11 +102,20 @@ impl Render {
 const MEASURING: Duration = Duration::from_secs(1);
 const MEASURING_SHARE: f64 = 0.1;
 
-fn with_a_bar(still: &Still, scene: &Scene, plan: &Plan) -> Result<Frame, ExportError> {
+fn with_a_bar(
+    still: &Still,
+    scene: &Scene,
+    plan: &Plan,
+    end: Option<Instant>,
+) -> Result<Frame, ExportError> {
     let bar = output::progress_bar();
-    let frame = still.render_planned(scene, plan, &Cancel::never(), &|share| {
-        output::advance(&bar, share);
-    });
+    let (never, settings) = (Cancel::never(), &still.job.settings);
+    let progress = |share: f64| output::advance(&bar, share);
+    let frame = match end {
+        Some(end) => render_until(scene, plan, settings, end, &never, &progress)
+            .ok_or(ExportError::Cancelled),
+        None => still.render_planned(scene, plan, &never, &progress),
+    };
     bar.finish_and_clear();
     frame
 }

@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use super::accuracy::Accuracy;
+use super::json::finite;
 use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::display::Curve;
 use crate::project::{Job, Project};
@@ -23,6 +25,9 @@ pub(super) struct Seconds {
 /// Everything that a render has to tell.
 pub(super) struct Stats<'a> {
     pub(super) seconds: Seconds,
+    /// Processor time of planning and rendering, seconds.
+    pub(super) render_cpu_s: f64,
+    pub(super) accuracy: Accuracy,
     pub(super) threads: usize,
     pub(super) project: &'a Project,
     pub(super) job: &'a Job,
@@ -47,6 +52,8 @@ impl Stats<'_> {
         let (bricks, _) = medium.occupancy();
         json!({
             "seconds": { "load": load, "bake": bake, "render": render, "write": write },
+            "cpu_seconds": { "render": finite(self.render_cpu_s) },
+            "accuracy": self.accuracy.to_json(),
             "threads": self.threads,
             "rays": self.frame.rays,
             "samples": self.frame.samples,
@@ -195,9 +202,4 @@ impl Stats<'_> {
         let peak = luminance.filter(|y| y.is_finite()).fold(0.0, f32::max);
         finite(MAX_LUMINOUS_EFFICACY * f64::from(peak))
     }
-}
-
-/// JSON has no infinity: what is not a finite number is null.
-fn finite(value: f64) -> Value {
-    serde_json::Number::from_f64(value).map_or(Value::Null, Value::Number)
 }

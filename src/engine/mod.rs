@@ -9,6 +9,7 @@
 //! never waits for a lock (see [`Engine::drain`]). A worker's panic becomes an [`News::Failed`]; the next job
 //! runs as if nothing had happened.
 
+mod news;
 pub mod picture;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,77 +20,15 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 
+pub use news::{Generation, News, Packed, Update};
 pub use picture::Picture;
 
 use crate::project::Job;
-use crate::render::costs::{Cost, costs};
+use crate::render::costs::costs;
 use crate::render::plan::Decision;
-use crate::render::{Cancel, Effects, Facts, Flaws, Pass, Plan, Tile, pass, render_pass};
+use crate::render::{Cancel, Pass, Plan, pass, render_pass};
 use crate::scene::Scene;
 use crate::volume::Volume;
-
-/// Which submit something belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Generation(u64);
-
-/// News from the engine.
-#[derive(Debug)]
-pub struct Update {
-    /// The submit that it belongs to.
-    pub generation: Generation,
-    /// What happened.
-    pub news: News,
-}
-
-/// What happened to a job.
-#[derive(Debug)]
-pub enum News {
-    /// The medium is packed, the passes begin.
-    Started {
-        /// The passes to come.
-        passes: Vec<Pass>,
-        /// Size of the picture in pixels.
-        size: [u32; 2],
-        /// Time the packing and baking took.
-        bake: Duration,
-        /// What the settings cannot show faithfully.
-        flaws: Flaws,
-        /// Which effects are computed, and why.
-        decisions: Vec<Decision>,
-    },
-    /// A tile of the running pass.
-    Tile(Tile),
-    /// A pass is whole.
-    PassDone {
-        /// Its index among the passes.
-        index: usize,
-        /// Time since the submit.
-        since_submit: Duration,
-        /// Time the pass took.
-        took: Duration,
-        /// What has been found out about the picture so far.
-        facts: Facts,
-    },
-    /// All passes are whole.
-    Finished,
-    /// What each effect costs or would cost in this picture, measured once there was nothing else to do.
-    Costs(Vec<Cost>),
-    /// A worker failed; the words say how.
-    Failed(String),
-}
-
-/// A job's scene as it is being rendered, lent to whoever wants to look closer. Cheap to clone.
-#[derive(Debug, Clone)]
-pub struct Packed {
-    /// The submit that it belongs to.
-    pub generation: Generation,
-    /// The packed scene.
-    pub scene: Scene,
-    /// Size of its picture in pixels.
-    pub size: [u32; 2],
-    /// Which effects are computed: none is left to be decided, so that who looks closer looks at what is on show.
-    pub effects: Effects,
-}
 
 /// Renders in the background. Dropping it cancels and joins.
 pub struct Engine {
@@ -102,6 +41,8 @@ struct Before {
     scene: Scene,
     volume: Arc<Volume>,
     decisions: Vec<Decision>,
+    /// Whether a picture with a ray for each pixel is on show.
+    is_fine: bool,
 }
 
 /// So long costs are measured at most, beside the picture's own fields.
@@ -111,12 +52,21 @@ struct Shared {
     /// Raised by each submit; what a [`Cancel`] compares with.
     current: Arc<AtomicU64>,
     stop: AtomicBool,
-    waiting: Mutex<Option<(Generation, Job, Instant)>>,
+    waiting: Mutex<Option<Waiting>>,
     arrived: Condvar,
     outbox: Mutex<Vec<Update>>,
     /// The scene of the running or last job, once it is packed.
     packed: Mutex<Option<Packed>>,
     wake: Box<dyn Fn() + Send + Sync>,
+}
+
+/// A job that waits for the engine.
+struct Waiting {
+    generation: Generation,
+    job: Job,
+    /// Whether it shows what the one before shows, with other numbers: then there is no need for coarse passes.
+    is_the_same_view: bool,
+    submitted: Instant,
 }
 
 /// A poisoned lock guards data that is whole at every moment: a panic between two pushes leaves a valid list.
@@ -166,9 +116,24 @@ impl Engine {
 
     /// Renders this job from now on; whatever was running, waiting or not yet drained is forgotten.
     pub fn submit(&self, job: Job) -> Generation {
+        self.take(job, false)
+    }
+
+    /// The same for a job that shows what the one before shows, with other numbers: no coarse picture of it takes the place of
+    /// a fine one.
+    pub fn refine(&self, job: Job) -> Generation {
+        self.take(job, true)
+    }
+
+    fn take(&self, job: Job, is_the_same_view: bool) -> Generation {
         let mut waiting = lock(&self.shared.waiting);
         let generation = self.shared.next_generation();
-        *waiting = Some((generation, job, Instant::now()));
+        *waiting = Some(Waiting {
+            generation,
+            job,
+            is_the_same_view,
+            submitted: Instant::now(),
+        });
         drop(waiting);
         self.shared.arrived.notify_one();
         generation
@@ -231,9 +196,10 @@ impl Shared {
     /// The engine's thread: waits for jobs until told to stop.
     fn serve(&self, pool: &ThreadPool) {
         let mut before: Option<Before> = None;
-        while let Some((generation, job, submitted)) = self.next() {
+        while let Some(next) = self.next() {
+            let generation = next.generation;
             let outcome = catch_unwind(AssertUnwindSafe(|| {
-                pool.install(|| self.render(generation, &job, submitted, before.as_ref()))
+                pool.install(|| self.render(&next, before.as_ref()))
             }));
             match outcome {
                 Ok(done) => before = Some(done),
@@ -247,7 +213,7 @@ impl Shared {
     }
 
     /// The next job, as soon as there is one; `None` when the engine is dropped.
-    fn next(&self) -> Option<(Generation, Job, Instant)> {
+    fn next(&self) -> Option<Waiting> {
         let mut waiting = lock(&self.waiting);
         loop {
             if self.stop.load(Ordering::SeqCst) {
@@ -264,29 +230,32 @@ impl Shared {
     }
 
     /// Packs the medium, then runs pass after pass until done or overtaken. Returns what the next job may use.
-    fn render(
-        &self,
-        generation: Generation,
-        job: &Job,
-        submitted: Instant,
-        before: Option<&Before>,
-    ) -> Before {
+    fn render(&self, next: &Waiting, before: Option<&Before>) -> Before {
+        let (generation, job) = (next.generation, &next.job);
         let cancel = Cancel::when_passed(Arc::clone(&self.current), generation.0);
         let begun = Instant::now();
         let scene = job.scene(before.map(|before| &before.scene));
         // Of another volume nothing says what was on show of this one.
         let decided = before.filter(|before| Arc::ptr_eq(&before.volume, &job.volume));
         let decided = decided.map_or(&[][..], |before| &before.decisions);
-        let plan = Plan::after(&scene, &job.settings, decided);
+        let plan = Arc::new(Plan::after(&scene, &job.settings, decided));
         let replaced = lock(&self.packed).replace(Packed {
             generation,
             scene: scene.clone(),
             size: job.settings.size,
             effects: job.settings.effects.as_decided(&plan.decisions),
+            settings: job.settings,
+            plan: Arc::clone(&plan),
         });
         // What may be the last of an old volume is freed outside the lock.
         drop(replaced);
-        let passes = pass::ladder(&job.settings, pass::Audience::Window);
+        let shows_enough = before.is_some_and(|before| before.is_fine) && next.is_the_same_view;
+        let audience = if shows_enough {
+            pass::Audience::Still
+        } else {
+            pass::Audience::Window
+        };
+        let passes = pass::ladder(&job.settings, audience);
         let started = News::Started {
             passes: passes.clone(),
             size: job.settings.size,
@@ -295,7 +264,9 @@ impl Shared {
             decisions: plan.decisions.clone(),
         };
         self.publish(generation, started);
-        if self.render_passes(generation, &scene, &plan, &passes, submitted, &cancel) {
+        let submitted = next.submitted;
+        let whole = self.render_passes(generation, &scene, &plan, &passes, submitted, &cancel);
+        if whole == passes.len() {
             self.publish(generation, News::Finished);
             let measured = costs(&scene, &job.settings, &plan, MEASURING, &cancel);
             if let Some(costs) = measured {
@@ -305,11 +276,12 @@ impl Shared {
         Before {
             scene,
             volume: Arc::clone(&job.volume),
-            decisions: plan.decisions,
+            decisions: plan.decisions.clone(),
+            is_fine: shows_enough || passes.iter().take(whole).any(|pass| pass.stride == 1),
         }
     }
 
-    /// Runs pass after pass; `false` if overtaken.
+    /// Runs pass after pass until overtaken. Returns how many are whole.
     fn render_passes(
         &self,
         generation: Generation,
@@ -318,14 +290,14 @@ impl Shared {
         passes: &[Pass],
         submitted: Instant,
         cancel: &Cancel,
-    ) -> bool {
+    ) -> usize {
         for (index, pass) in passes.iter().enumerate() {
             let begun = Instant::now();
             let whole = render_pass(scene, plan, pass, cancel, &|tile| {
                 self.publish(generation, News::Tile(tile));
             });
             if !whole || cancel.is_cancelled() {
-                return false;
+                return index;
             }
             let took = begun.elapsed();
             self.publish(
@@ -338,7 +310,7 @@ impl Shared {
                 },
             );
         }
-        true
+        passes.len()
     }
 
     /// Adds to the outbox what still belongs to the current job, and wakes the window.

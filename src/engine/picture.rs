@@ -111,7 +111,7 @@ impl Picture {
             } => {
                 progress.flaws = flaws;
                 progress.decisions = decisions;
-                progress.rays_of_pass = passes.first().map_or(0, |pass| rays_of(pass, size));
+                progress.rays_of_pass = passes.first().map_or(0, |pass| pass.rays(size));
                 progress.passes = passes;
                 // The first pass writes every pixel, so a sheet that was not finished serves again.
                 let again = self.coming.take();
@@ -148,7 +148,7 @@ impl Picture {
                 progress.rays_of_pass = progress
                     .passes
                     .get(progress.done)
-                    .map_or(0, |pass| rays_of(pass, size));
+                    .map_or(0, |pass| pass.rays(size));
             }
             News::Finished => progress.finished = true,
             News::Costs(costs) => progress.costs = Some(costs),
@@ -182,12 +182,6 @@ impl Sheet {
             row[across.clone()].fill(stride);
         }
     }
-}
-
-fn rays_of(pass: &Pass, size: [u32; 2]) -> u64 {
-    size.iter()
-        .map(|side| u64::from(side.div_ceil(pass.stride)))
-        .product()
 }
 
 #[cfg(test)]

@@ -229,6 +229,7 @@ mod tests {
             decisions: Vec::new(),
             facts: crate::render::Facts::default(),
             flaws: Flaws::default(),
+            finished: true,
         };
         let still = Still::new(&project, &Arc::new(procedural::torch()), locked);
         (still.unwrap(), frame)

@@ -51,6 +51,13 @@ impl Project {
                 ranges::REFRACTION_GAIN,
             ),
             (
+                "render.target_error",
+                self.render
+                    .target_error
+                    .unwrap_or_else(|| self.render.quality.target_de()),
+                ranges::TARGET_ERROR,
+            ),
+            (
                 "camera.fov_deg",
                 self.camera.fov_deg.unwrap_or(FRAMING_FOV_DEG),
                 ranges::FOV_DEG,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::accuracy::Accuracy;
 use super::backdrops::Backdrops;
 use super::error::ProjectError;
 use super::fields::field_maps;
@@ -35,8 +36,10 @@ pub struct Job {
     pub camera: Camera,
     /// What stands around.
     pub stage: Stage,
-    /// How accurate.
+    /// How accurate: what is not set by hand is as for a scene that nobody has looked at.
     pub settings: Settings,
+    /// How accurate it is wished, and which of the numbers are to be chosen for that.
+    pub accuracy: Accuracy,
     /// What is assumed or cannot be faithful, known before a ray is marched.
     pub flaws: Flaws,
     /// Whose conventions the fields follow here.
@@ -181,6 +184,7 @@ impl Project {
             camera,
             stage,
             settings,
+            accuracy: self.accuracy(),
             flaws,
             producer,
             proposed,

@@ -3,6 +3,7 @@
 //! A [`Project`] is plain data, written and read as TOML ([`mod@file`]), changed key by key ([`set`]), and turned
 //! into what the floors below take: [`Project::job`] for the renderer, [`Project::view`] for the picture.
 
+mod accuracy;
 mod backdrops;
 mod check;
 mod darkness;
@@ -18,6 +19,7 @@ pub mod set;
 pub mod settings;
 mod stage;
 
+pub use accuracy::Accuracy;
 pub use backdrops::{Backdrops, PictureError};
 pub use darkness::{Darkness, Mend};
 pub use error::ProjectError;

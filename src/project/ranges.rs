@@ -9,6 +9,8 @@ pub const SOOT_RADIUS_NM: [f64; 2] = [1.0, 100.0];
 pub const AMOUNT: [f64; 2] = [0.0, 1e4];
 /// `fuel.salt_ppm`: up to a tenth of the gas.
 pub const SALT_PPM: [f64; 2] = [0.0, 1e5];
+/// `render.target_error`, ΔE_ITP: from what no eye sees to another picture.
+pub const TARGET_ERROR: [f64; 2] = [0.01, 100.0];
 /// `air.temperature_k`.
 pub const AIR_TEMPERATURE_K: [f64; 2] = [200.0, 400.0];
 /// `soot.asymmetry`: short of light that is not scattered at all.

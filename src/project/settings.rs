@@ -310,6 +310,7 @@ pub(super) fn everything_set() -> Project {
         render: RenderSettings {
             size: [640, 360],
             quality: Quality::Final,
+            target_error: Some(0.2),
             step_voxels: Some(0.5),
             wavelengths: Some(WavelengthSet::Fitted(8)),
             interpolation: Interpolation::Tricubic,

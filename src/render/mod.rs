@@ -15,8 +15,9 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::scene::{Scene, WavelengthSet};
+use crate::scene::WavelengthSet;
 
+mod baked;
 mod bend;
 mod cells;
 mod chord;
@@ -47,6 +48,7 @@ mod scatter;
 mod shift;
 mod spans;
 mod spread;
+pub mod still;
 mod subpixel;
 mod sweep;
 pub mod tables;
@@ -59,6 +61,7 @@ pub use level::Level;
 pub use pass::{Pass, render_pass};
 pub use plan::{Facts, Plan};
 pub use probe::{Probe, Prober};
+pub use still::{Frame, render_planned, render_still};
 
 /// How accurate a picture is, in concrete numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -260,78 +263,18 @@ impl Cancel {
         }
     }
 
+    /// The same, cancelled as well from a moment on.
+    #[must_use]
+    pub fn or_at(&self, end: Instant) -> Self {
+        Self {
+            until: Some(self.until.map_or(end, |until| until.min(end))),
+            ..self.clone()
+        }
+    }
+
     /// Whether to stop.
     pub fn is_cancelled(&self) -> bool {
         self.current.load(Ordering::Relaxed) != self.mine
             || self.until.is_some_and(|until| Instant::now() > until)
     }
-}
-
-/// A finished still: the film of every pass, with counts.
-#[derive(Debug, Clone)]
-pub struct Frame {
-    /// The accumulated picture.
-    pub film: Film,
-    /// Rays marched.
-    pub rays: u64,
-    /// Samples of the medium taken.
-    pub samples: u64,
-    /// Which effects were computed, and why.
-    pub decisions: Vec<plan::Decision>,
-    /// What was found out on the way.
-    pub facts: Facts,
-    /// What the settings could not show faithfully.
-    pub flaws: Flaws,
-}
-
-/// Renders every sample of a still in the calling thread's rayon pool, without coarse passes.
-///
-/// `progress` hears the finished share, 0 to 1, after each tile, from any thread. `None` if cancelled.
-pub fn render_still(
-    scene: &Scene,
-    settings: &Settings,
-    cancel: &Cancel,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Option<Frame> {
-    let plan = Plan::new(scene, settings);
-    render_planned(scene, &plan, settings, cancel, progress)
-}
-
-/// [`render_still`] after a plan of the same scene and settings, which whoever made it may go on using.
-pub fn render_planned(
-    scene: &Scene,
-    plan: &Plan,
-    settings: &Settings,
-    cancel: &Cancel,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Option<Frame> {
-    let passes = pass::ladder(settings, pass::Audience::Still);
-    let film = std::sync::Mutex::new(Film::new(settings.size));
-    let counts = [AtomicU64::new(0), AtomicU64::new(0)];
-    let all = settings.pixels() * passes.len() as u64;
-    for pass in &passes {
-        let finished = render_pass(scene, plan, pass, cancel, &|tile| {
-            counts[1].fetch_add(tile.samples, Ordering::Relaxed);
-            film.lock()
-                .unwrap_or_else(std::sync::PoisonError::into_inner)
-                .merge(&tile);
-            let rays = counts[0].fetch_add(tile.pixels.len() as u64, Ordering::Relaxed);
-            progress((rays + tile.pixels.len() as u64) as f64 / all as f64);
-        });
-        if !finished {
-            return None;
-        }
-    }
-    let [rays, samples] = counts.map(AtomicU64::into_inner);
-    let facts = plan.facts();
-    Some(Frame {
-        film: film
-            .into_inner()
-            .unwrap_or_else(std::sync::PoisonError::into_inner),
-        rays,
-        samples,
-        decisions: plan.decisions.clone(),
-        facts,
-        flaws: plan.flaws.clone(),
-    })
 }

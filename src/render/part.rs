@@ -5,6 +5,7 @@
 //! group of packets stands for all of its kind (W. G. Cochran, *Sampling Techniques* (1977), ch. 5: stratified sampling).
 
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
@@ -21,6 +22,8 @@ use crate::scene::Scene;
 pub struct Part {
     size: [u32; 2],
     groups: Vec<Group>,
+    /// Samples that one ray a pixel of the whole picture takes with steps of [`LOOK_STEP_VOXELS`], where a look has told.
+    looked: Option<f64>,
 }
 
 /// Packets of one kind.
@@ -48,7 +51,7 @@ pub struct Rendered {
 /// Pixels between the rays of the look that tells light from dark, and the side of a picture that is large enough for it.
 const LOOK: [(u32, u32); 3] = [(8, 256), (4, 64), (1, 0)];
 /// Step of that look, voxels.
-const LOOK_STEP_VOXELS: f64 = 2.0;
+pub const LOOK_STEP_VOXELS: f64 = 2.0;
 /// Of so many packets in the light one more is taken in the dark.
 const LIT_FOR_EACH_DARK: usize = 8;
 /// Packets that are on the clock together: much longer than it takes to read the clock.
@@ -74,7 +77,11 @@ impl Part {
             stands_for: all as f64 / count.max(1) as f64,
             corners,
         }];
-        Self { size, groups }
+        Self {
+            size,
+            groups,
+            looked: None,
+        }
     }
 
     /// At most so many packets where a quick look finds light, and an eighth as many where it finds none. Looks in the calling
@@ -102,7 +109,14 @@ impl Part {
         Some(Self {
             size,
             groups: groups.collect(),
+            looked: Some(look.samples),
         })
+    }
+
+    /// Samples that one ray a pixel of the whole picture takes with steps of [`LOOK_STEP_VOXELS`], counted all over it by the
+    /// look, which is nearer than what a part tells. `None` where nobody has looked.
+    pub fn looked_samples(&self) -> Option<f64> {
+        self.looked
     }
 
     /// Share of the picture's pixels that is in it.
@@ -255,6 +269,8 @@ struct Look {
     /// Y of each block, row by row.
     light: Vec<f32>,
     peak: f32,
+    /// Samples that it would take with a ray in each pixel.
+    samples: f64,
 }
 
 impl Look {
@@ -271,7 +287,9 @@ impl Look {
             samples: 1,
             step_voxels: LOOK_STEP_VOXELS,
         };
+        let taken = AtomicU64::new(0);
         let whole = render_pass(scene, plan, &pass, cancel, &|tile| {
+            taken.fetch_add(tile.samples, Ordering::Relaxed);
             let mut light = light
                 .lock()
                 .unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -285,7 +303,10 @@ impl Look {
         let light = light
             .into_inner()
             .unwrap_or_else(std::sync::PoisonError::into_inner);
+        let of_pixels = f64::from(size[0]) * f64::from(size[1]);
+        let rays = pass.rays(size) as f64;
         whole.then(|| Self {
+            samples: taken.into_inner() as f64 * of_pixels / rays,
             stride,
             across,
             peak: light.iter().copied().fold(0.0, f32::max),

@@ -25,6 +25,14 @@ pub struct Pass {
     pub step_voxels: f64,
 }
 
+impl Pass {
+    /// Rays of the whole pass.
+    pub fn rays(&self, size: [u32; 2]) -> u64 {
+        let across = size.map(|side| u64::from(side.div_ceil(self.stride)));
+        across[0] * across[1]
+    }
+}
+
 /// Who waits for the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Audience {

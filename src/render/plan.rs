@@ -151,6 +151,20 @@ impl Plan {
         self.tables.nodes.len() as u32
     }
 
+    /// What all effects that are left out change together at most, ΔE_ITP; those that a person left out do not count.
+    pub fn left_out_de(&self) -> f64 {
+        let out = self
+            .decisions
+            .iter()
+            .filter(|it| !it.on && it.switch != Switch::Off && it.effect != Effect::Wavelengths);
+        out.filter_map(|it| it.bound).sum()
+    }
+
+    /// Whether rays are bent.
+    pub fn bends(&self) -> bool {
+        self.wanted.bent.is_some()
+    }
+
     /// Whether the fields of a level are worked out, or there are none to work out.
     pub(super) fn has_fields(&self, level: Level) -> bool {
         self.wanted == Wanted::default() || self.fields[level as usize].get().is_some()

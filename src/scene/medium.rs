@@ -97,6 +97,11 @@ impl Medium {
         self.voxel_size_m
     }
 
+    /// The longest side of the box that is marched through, voxels.
+    pub fn longest_side_voxels(&self) -> f64 {
+        (self.domain.max - self.domain.min).max_element()
+    }
+
     /// Largest soot volume fraction of any sample, before the amounts of the scene file.
     pub fn peak_volume_fraction(&self) -> f32 {
         self.peaks.volume_fraction

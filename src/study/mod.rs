@@ -5,7 +5,7 @@
 //! scaled to the whole picture.
 //!
 //! * The [`Pilot`] is quick: it tries steps, wavelengths and rays each by themselves. Small differences add up pixel by pixel
-//!   ([`mod@sight`]), so the error of every choice of the three is known, and the cheapest that is good enough is chosen.
+//!   (`sight`), so the error of every choice of the three is known, and the cheapest that is good enough is chosen.
 //! * The [`Report`] measures every variant for itself, and is what `sootlight study` writes.
 //!
 //! Which numbers are chosen depends on the scene alone, never on a clock: what a choice costs is counted for that in samples
@@ -13,10 +13,21 @@
 //!
 //! The reference is of this program's own: how far it is from a real fire nobody knows from it.
 
+mod aim;
+mod chart;
+mod front;
 mod numbers;
 mod pilot;
+mod report;
 mod sight;
+mod table;
+mod tried;
+mod variant;
 
+pub use aim::{Aim, aim};
+pub use chart::{Chart, ChartError};
 pub use numbers::{Numbers, RAYS, STEPS};
-pub use pilot::{Free, Pilot, Split};
+pub use pilot::{Choice, Pilot, Split};
+pub use report::{Point, REFERENCE, Report, Status, report};
 pub use sight::Error;
+pub use variant::{Family, Variant};

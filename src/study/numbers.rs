@@ -1,5 +1,6 @@
 //! The numbers that accuracy is made of, and which of them are tried.
 
+use crate::project::Accuracy;
 use crate::render::Settings;
 use crate::scene::WavelengthSet;
 
@@ -37,6 +38,28 @@ impl Numbers {
             wavelengths: self.wavelengths,
             samples_per_pixel: self.samples_per_pixel,
             ..*settings
+        }
+    }
+
+    /// Those of them that were to be chosen, the others as given.
+    #[must_use]
+    pub fn where_free(self, wished: Accuracy, given: Self) -> Self {
+        Self {
+            step_voxels: if wished.step {
+                self.step_voxels
+            } else {
+                given.step_voxels
+            },
+            wavelengths: if wished.wavelengths {
+                self.wavelengths
+            } else {
+                given.wavelengths
+            },
+            samples_per_pixel: if wished.rays {
+                self.samples_per_pixel
+            } else {
+                given.samples_per_pixel
+            },
         }
     }
 

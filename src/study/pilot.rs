@@ -3,10 +3,14 @@
 //! Light that comes from all sides is the same in all of it but for the wavelengths, which are compared without it: what it
 //! adds is as smooth as the rest, and working it out for every set would take longer than the picture.
 
-use super::numbers::{Numbers, RAYS, STEPS};
+use rayon::prelude::*;
+
+use super::numbers::{Numbers, RAYS};
 use super::sight::{Error, Picture, Sight};
-use crate::render::part::{Part, Rendered};
-use crate::render::{Cancel, Film, Plan, Settings};
+use super::tried::{self, Tried};
+use crate::project::Accuracy;
+use crate::render::part::{LOOK_STEP_VOXELS, Part};
+use crate::render::{Cancel, Plan, Settings};
 use crate::scene::{Scene, WavelengthSet};
 
 /// Most packets of sixteen pixels in the light.
@@ -15,28 +19,19 @@ const PACKETS: usize = 96;
 const LEAST_PACKETS: usize = 24;
 /// Of a picture at most this share is looked at, unless that is too little to tell anything.
 const MOST_OF_PICTURE: f64 = 0.02;
-/// Step at which wavelengths and rays are tried, voxels.
-const STEP: f64 = 1.0;
 /// The set that others are compared with.
 const FINEST_SET: WavelengthSet = WavelengthSet::Plain(64);
 /// Share of the target that wavelengths may take for the set to be the one that steps are tried with.
-const SHARE_OF_SET: f64 = 0.5;
+const SHARE_OF_SET: f64 = 0.7;
+/// Most wavelengths of a set that steps are tried with where none is good enough.
+const QUICK_SET: u32 = 16;
 
 /// Work of a sample beside what each wavelength takes of it: finding it and fetching what is there.
 const WORK_OF_SAMPLE: f64 = 10.0;
-/// Work of a ray before its first sample, and of its pixel.
+/// Work of a lit ray before its first sample.
 const WORK_OF_RAY: f64 = 100.0;
-
-/// Which numbers are to be chosen; the others stand as they are set.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Free {
-    /// The step.
-    pub step: bool,
-    /// The wavelengths.
-    pub wavelengths: bool,
-    /// The rays of each pixel.
-    pub rays: bool,
-}
+/// Work of finding the way of a bent ray, for each voxel of the box's longest side.
+const WORK_OF_BENDING: f64 = 170.0;
 
 /// An error by its causes, 95th percentiles of ΔE_ITP.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -65,118 +60,103 @@ pub struct Pilot {
     /// The set that steps and rays were tried with.
     set: WavelengthSet,
     features: usize,
-    pixels: f64,
+    /// By how much more samples the whole picture takes than its part says, and seconds of processor time of each.
+    more_samples: f64,
+    cpu_s_of_sample: f64,
+    /// Seconds of what a ray a pixel takes without its samples.
+    cpu_s_of_rays: f64,
+    /// Lit pixels of the whole picture, and the work of each of their rays beside its samples.
+    lit: f64,
+    work_of_ray: f64,
+    /// Every choice of what was tried.
+    table: Vec<Choice>,
 }
 
-/// One number, tried.
-#[derive(Debug, Clone)]
-struct Tried<T> {
-    what: T,
-    xyz: Picture,
-    /// How it looks different from the finest, pixel by pixel and in all.
-    shift: Vec<[f64; 3]>,
-    error: Error,
-    /// Samples, processor's seconds and wall-clock seconds of one ray a pixel of the whole picture.
-    samples: f64,
-    cpu_s: f64,
-    wall_s: f64,
+/// A choice of numbers, with what is known of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choice {
+    /// The numbers.
+    pub numbers: Numbers,
+    /// The error that a picture with them has.
+    pub error: Split,
+    /// Seconds of processor time of its march.
+    pub cpu_s: f64,
+    /// What they cost in no unit: the same on every machine.
+    pub work: f64,
 }
 
 impl Pilot {
     /// Looks at a scene in the calling thread's rayon pool. The `plan` is of these settings; its fields are worked out if
-    /// nobody has asked for them. `target_de` is what is aimed at: it only decides with which wavelengths steps are tried.
-    /// `None` if cancelled, or if there is nothing to be seen.
+    /// nobody has asked for them. What is wished only decides with which wavelengths steps
+    /// are tried.
+    /// With it comes the plan that steps were tried with, if it was another. `None` if cancelled, or if there is nothing to be
+    /// seen.
     pub fn new(
         scene: &Scene,
         plan: &Plan,
         settings: &Settings,
-        target_de: f64,
+        wished: Accuracy,
         cancel: &Cancel,
-    ) -> Option<Self> {
+    ) -> Option<(Self, Option<Plan>)> {
         let pixels = settings.pixels() as f64;
         let most = (MOST_OF_PICTURE * pixels / 16.0) as usize;
         let part = Part::lit(scene, plan, most.clamp(LEAST_PACKETS, PACKETS), cancel)?;
         let weights = part.weights();
 
-        let mut sets = Vec::new();
-        for set in WavelengthSet::ALL {
-            let settings = Settings {
-                wavelengths: set,
-                ..*settings
-            };
-            let direct = plan.direct(scene, &settings);
-            sets.push(Tried::new(
-                set,
-                part.render(scene, &direct, STEP, 1, cancel)?,
-            ));
-        }
+        let mut sets = tried::sets(scene, plan, settings, &part, cancel)?;
         let finest = sets.iter().find(|it| it.what == FINEST_SET)?.xyz.clone();
         let sight = Sight::of(&finest, weights.clone());
         // Where only the stage is lit, direct light is none.
         let sight = sight.or_else(|| {
-            let lit = part.render(scene, plan, STEP, 1, cancel)?;
+            let lit = part.render(scene, plan, tried::STEP, 1, cancel)?;
             Sight::of(&lit.xyz, weights)
         })?;
-        compare(&sight, &mut sets, &finest);
-        let set = set_for(&sets, settings, target_de);
+        tried::compare(&sight, &mut sets, &finest);
+        let set = set_for(&sets, settings, wished);
         let settings = Settings {
             wavelengths: set,
             ..*settings
         };
-        let other;
-        let plan = if plan.tables.wavelengths.len() == set.count() as usize {
-            plan
-        } else {
-            other = plan.at(scene, &settings);
-            &other
-        };
+        let is_another = plan.wavelengths() != set.count();
+        let another = is_another.then(|| plan.at(scene, &settings));
+        let plan = another.as_ref().unwrap_or(plan);
 
-        let mut steps = Vec::new();
-        let mut all: Vec<f64> = STEPS.to_vec();
-        if !all.contains(&settings.step_voxels) {
-            all.push(settings.step_voxels);
-            all.sort_by(|one, other| other.total_cmp(one));
-        }
-        for step in all {
-            steps.push(Tried::new(step, part.render(scene, plan, step, 1, cancel)?));
-        }
+        let mut steps = tried::steps(scene, plan, settings.step_voxels, &part, cancel)?;
         let finest_step = steps.last()?.xyz.clone();
-        compare(&sight, &mut steps, &finest_step);
+        tried::compare(&sight, &mut steps, &finest_step);
 
-        let centre = steps.iter().find(|it| it.what == STEP)?;
-        let mut rays = vec![Tried {
-            what: 1,
-            ..centre.as_rays()
-        }];
-        for count in RAYS.into_iter().skip(1) {
-            rays.push(Tried::new(
-                count,
-                part.render(scene, plan, STEP, count, cancel)?,
-            ));
-        }
+        let centre = steps.iter().find(|it| it.what == tried::STEP)?;
+        let mut rays = tried::rays(scene, plan, centre, &part, cancel)?;
         let smoothest = rays.last()?.xyz.clone();
-        compare(&sight, &mut rays, &smoothest);
+        tried::compare(&sight, &mut rays, &smoothest);
 
         // The shortest step with this set, and by how much more wavelengths and more rays change another picture.
         let here = &sets.iter().find(|it| it.what == set)?.xyz;
-        let changed = |i: usize, c: usize| {
-            let times = |more: f64, less: f64| {
-                if less > 0.0 && more > 0.0 {
-                    more / less
-                } else {
-                    1.0
-                }
-            };
-            let by_set = times(finest[i][c], here[i][c]);
-            let by_rays = times(smoothest[i][c], centre.xyz[i][c]);
-            finest_step[i][c] * by_set * by_rays
-        };
-        let all = 0..finest.len();
-        let reference = all
-            .map(|i| std::array::from_fn(|c| changed(i, c)))
+        let by_set = tried::times(here, &finest);
+        let by_rays = tried::times(&centre.xyz, &smoothest);
+        let changes = by_set.iter().zip(&by_rays);
+        let pixels = finest_step.iter().zip(changes);
+        let reference: Picture = pixels
+            .map(|(xyz, (set, rays))| std::array::from_fn(|c| xyz[c] * set[c] * rays[c]))
             .collect();
         let own = own_error(&sight, &steps, &sets, &rays);
-        Some(Self {
+        let lit = sight.lit_weight(&reference);
+        let longest = scene.flame.medium().longest_side_voxels();
+        let work_of_ray = WORK_OF_RAY
+            + if plan.bends() {
+                WORK_OF_BENDING * longest
+            } else {
+                0.0
+            };
+        let looked = steps.iter().find(|it| it.what == LOOK_STEP_VOXELS)?;
+        let more_samples = part.looked_samples()? / looked.samples;
+        let (first, last) = (steps.first()?, steps.last()?);
+        let cpu_s_of_sample = (last.cpu_s - first.cpu_s) / (last.samples - first.samples);
+        let mut pilot = Self {
+            table: Vec::new(),
+            more_samples,
+            cpu_s_of_sample,
+            cpu_s_of_rays: (first.cpu_s - cpu_s_of_sample * first.samples).max(0.0),
             part,
             sight,
             reference,
@@ -186,8 +166,15 @@ impl Pilot {
             rays,
             set,
             features: plan.tables.features.len(),
-            pixels,
-        })
+            lit,
+            work_of_ray,
+        };
+        let everything = pilot.choices(Accuracy::ALL, Numbers::of(&settings));
+        pilot.table = everything
+            .into_par_iter()
+            .map(|numbers| pilot.choice(numbers))
+            .collect();
+        Some((pilot, another))
     }
 
     /// Share of the picture's pixels that was looked at.
@@ -220,41 +207,55 @@ impl Pilot {
         }
     }
 
-    /// How far a film of the whole picture is from the reference, measured where that is known. `None` if the film is of
-    /// another size.
-    pub fn measure(&self, film: &Film) -> Option<Error> {
-        let pixels: Option<Picture> = self
-            .part
-            .places()
-            .into_iter()
-            .map(|[x, y]| film.pixel(x, y).map(|pixel| pixel.xyz.map(f64::from)))
-            .collect();
-        Some(
-            self.sight
-                .error(&self.reference, &pixels?)
-                .at_least(self.own),
-        )
-    }
-
-    /// Processor's and wall-clock seconds that the march of the whole picture takes with these numbers.
+    /// Processor's and wall-clock seconds that the march of the whole picture takes with these numbers: what each ray takes by
+    /// itself, as the part has it, and what each sample takes, as many as the look has counted.
     pub fn seconds(&self, numbers: Numbers) -> [f64; 2] {
         let (step, set, _) = self.tried(numbers);
         let here = self.sets.iter().find(|it| it.what == self.set);
-        let times = here.map_or(1.0, |here| set.cpu_s / here.cpu_s);
-        [step.cpu_s, step.wall_s]
-            .map(|of_ray| f64::from(numbers.samples_per_pixel) * times * of_ray)
+        let of_set = here.map_or(0.0, |here| (set.cpu_s - here.cpu_s) / set.samples);
+        let more = self.cpu_s_of_sample * (self.more_samples - 1.0) * step.samples;
+        let more = more + of_set * self.more_samples * step.samples;
+        let cpu_s = f64::from(numbers.samples_per_pixel) * (step.cpu_s + more).max(0.0);
+        [cpu_s, cpu_s * step.wall_s / step.cpu_s]
+    }
+
+    /// Seconds of processor time of the whole picture's march where a part of it, scaled, took so many with so many rays a
+    /// pixel.
+    pub(super) fn of_whole(&self, cpu_s: f64, rays: u32) -> f64 {
+        let of_rays = f64::from(rays) * self.cpu_s_of_rays;
+        if cpu_s <= of_rays {
+            return cpu_s;
+        }
+        of_rays + self.more_samples * (cpu_s - of_rays)
     }
 
     /// What these numbers cost, in no unit: counted, so that it is the same on every machine.
     pub fn work(&self, numbers: Numbers) -> f64 {
         let (step, ..) = self.tried(numbers);
         let colours = numbers.wavelengths.count() as usize + self.features;
-        let of_ray = step.samples * (WORK_OF_SAMPLE + colours as f64) + self.pixels * WORK_OF_RAY;
+        let of_samples = self.more_samples * step.samples * (WORK_OF_SAMPLE + colours as f64);
+        let of_ray = of_samples + self.lit * self.work_of_ray;
         f64::from(numbers.samples_per_pixel) * of_ray
     }
 
+    /// Every choice of what was tried.
+    pub fn table(&self) -> &[Choice] {
+        &self.table
+    }
+
+    /// What is known of some numbers.
+    pub fn choice(&self, numbers: Numbers) -> Choice {
+        let known = self.table.iter().find(|it| it.numbers == numbers);
+        known.copied().unwrap_or_else(|| Choice {
+            numbers,
+            error: self.error(numbers),
+            cpu_s: self.seconds(numbers)[0],
+            work: self.work(numbers),
+        })
+    }
+
     /// Every choice of the numbers that are free; the others are those given.
-    pub fn choices(&self, free: Free, given: Numbers) -> Vec<Numbers> {
+    pub fn choices(&self, free: Accuracy, given: Numbers) -> Vec<Numbers> {
         let steps: Vec<f64> = self
             .steps
             .iter()
@@ -284,21 +285,36 @@ impl Pilot {
         .collect()
     }
 
-    /// The cheapest numbers whose error is at most so much; if there are none, the nearest to it. Depends on no clock.
-    pub fn choose(&self, target_de: f64, free: Free, given: Numbers) -> Numbers {
-        let mut all = self.choices(free, given);
-        all.sort_by(|one, other| self.work(*one).total_cmp(&self.work(*other)));
-        let mut nearest = (f64::INFINITY, given);
-        for numbers in all {
-            let off = self.error(numbers).all.de95;
-            if off <= target_de {
-                return numbers;
-            }
-            if off < nearest.0 {
-                nearest = (off, numbers);
-            }
-        }
-        nearest.1
+    /// The cheapest numbers that are as accurate as wished; if there are none, the nearest to it. Depends on no clock.
+    pub fn choose(&self, wished: Accuracy, given: Numbers) -> Numbers {
+        self.choose_from(self.choices(wished, given), wished.target_de)
+            .unwrap_or(given)
+    }
+
+    /// The same among those whose march takes at most so many seconds here and now; the quickest if none is so quick.
+    pub fn choose_within(&self, wished: Accuracy, given: Numbers, wall_s: f64) -> Numbers {
+        let mut all = self.choices(wished, given);
+        let seconds = |numbers: &Numbers| self.seconds(*numbers)[1];
+        let quickest = all
+            .iter()
+            .copied()
+            .min_by(|one, other| seconds(one).total_cmp(&seconds(other)));
+        all.retain(|numbers| seconds(numbers) <= wall_s);
+        self.choose_from(all, wished.target_de)
+            .or(quickest)
+            .unwrap_or(given)
+    }
+
+    fn choose_from(&self, all: Vec<Numbers>, target_de: f64) -> Option<Numbers> {
+        let all: Vec<Choice> = all.into_iter().map(|it| self.choice(it)).collect();
+        let off = |choice: &Choice| choice.error.all.de95;
+        let good = all.iter().filter(|it| off(it) <= target_de);
+        let cheapest = good.min_by(|one, other| one.work.total_cmp(&other.work));
+        let nearest = all.iter().min_by(|one, other| {
+            let by_error = off(one).total_cmp(&off(other));
+            by_error.then(one.work.total_cmp(&other.work))
+        });
+        cheapest.or(nearest).map(|choice| choice.numbers)
     }
 
     /// What was tried of these numbers, or the next longer step and fewer rays.
@@ -322,53 +338,21 @@ impl Pilot {
     }
 }
 
-impl<T> Tried<T> {
-    fn new(what: T, rendered: Rendered) -> Self {
-        Self {
-            what,
-            xyz: rendered.xyz,
-            shift: Vec::new(),
-            error: Error::default(),
-            samples: rendered.samples,
-            cpu_s: rendered.cpu_s,
-            wall_s: rendered.wall_s,
-        }
+/// The smallest set whose error leaves some of the target to others, or else the best of those that are not slow.
+fn set_for(sets: &[Tried<WavelengthSet>], settings: &Settings, wished: Accuracy) -> WavelengthSet {
+    if !wished.wavelengths {
+        return settings.wavelengths;
     }
-}
-
-impl Tried<f64> {
-    fn as_rays(&self) -> Tried<u32> {
-        Tried {
-            what: 1,
-            xyz: self.xyz.clone(),
-            shift: Vec::new(),
-            error: Error::default(),
-            samples: self.samples,
-            cpu_s: self.cpu_s,
-            wall_s: self.wall_s,
-        }
-    }
-}
-
-/// Compares what was tried with the finest of it.
-fn compare<T>(sight: &Sight, all: &mut [Tried<T>], finest: &[[f64; 3]]) {
-    for tried in all {
-        tried.shift = sight.shift(finest, &tried.xyz);
-        tried.error = sight.error(finest, &tried.xyz);
-    }
-}
-
-/// The smallest set whose error leaves enough of the target to others; the largest if none does.
-fn set_for(sets: &[Tried<WavelengthSet>], settings: &Settings, target_de: f64) -> WavelengthSet {
     let good = sets
         .iter()
-        .find(|it| it.error.de95 <= SHARE_OF_SET * target_de);
-    good.map_or(settings.wavelengths, |it| it.what)
+        .find(|it| it.error.de95 <= SHARE_OF_SET * wished.target_de);
+    let quick = sets.iter().filter(|it| it.what.count() <= QUICK_SET);
+    let best = quick.min_by(|one, other| one.error.de95.total_cmp(&other.error.de95));
+    good.or(best).map_or(settings.wavelengths, |it| it.what)
 }
 
 /// What the reference is off by: the midpoint rule's error falls to a quarter with half the step (L. F. Richardson 1911), that
-/// of bands of wavelengths likewise with twice their number, and that of
-/// evenly spread rays.
+/// of bands of wavelengths and of evenly spread rays likewise with twice their number.
 fn own_error(
     sight: &Sight,
     steps: &[Tried<f64>],

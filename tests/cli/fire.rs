@@ -26,7 +26,7 @@ fn statistics_tell_what_burns_and_which_effects_were_computed() {
     let place = Place::new();
     let copper = stats(
         &place,
-        "--preset copper --set render.interpolation=tricubic",
+        "--preset copper --set render.interpolation=tricubic --set render.wavelengths=6",
     );
     assert_eq!(copper["fire"]["fuel"], "methanol");
     assert_eq!(copper["fire"]["salt"], "copper");

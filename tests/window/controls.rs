@@ -13,7 +13,7 @@ pub(super) fn tall_window(project: Project) -> Harness<'static, App> {
     let mut harness = Harness::builder()
         .with_size([520.0, 3600.0])
         .with_step_dt(0.05)
-        .build_eframe(|creation| App::new(creation, project).expect("the system gives threads"));
+        .build_eframe(|creation| app(creation, project));
     harness.state_mut().document_mut().fixed_size = Some([40, 60]);
     settle(&mut harness);
     harness
@@ -288,9 +288,7 @@ fn what_was_open_before_and_the_built_in_flame_can_be_opened_again() {
 fn a_drag_under_full_load_stays_live_and_ends_at_the_last_job() {
     let mut harness = Harness::builder()
         .with_size([1280.0, 800.0])
-        .build_eframe(|creation| {
-            App::new(creation, Project::default()).expect("the system gives threads")
-        });
+        .build_eframe(|creation| app(creation, Project::default()));
     settle(&mut harness);
     let mut seen = std::collections::BTreeSet::new();
     for i in 0..120 {

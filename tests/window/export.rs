@@ -338,7 +338,7 @@ fn edits_during_an_export_do_not_change_it() {
 fn the_keyboard_opens_it_and_a_small_window_holds_it() {
     let mut harness = Harness::builder()
         .with_size([640.0, 400.0])
-        .build_eframe(|creation| App::new(creation, Project::default()).expect("threads"));
+        .build_eframe(|creation| app(creation, Project::default()));
     settle(&mut harness);
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::E);
     harness.run_steps(3);

@@ -9,7 +9,7 @@ fn window_dropped_on(project: Project, paths: Vec<PathBuf>) -> Harness<'static, 
     let mut harness = Harness::builder()
         .with_size([480.0, 320.0])
         .build_eframe(|creation| {
-            let mut app = App::new(creation, project).expect("the system gives threads");
+            let mut app = app(creation, project);
             app.open(paths);
             app
         });
@@ -70,7 +70,7 @@ fn a_first_load_that_is_cancelled_gives_the_built_in_flame() {
     let mut harness = Harness::builder()
         .with_size([480.0, 320.0])
         .build_eframe(|creation| {
-            let mut app = App::new(creation, project).expect("the system gives threads");
+            let mut app = app(creation, project);
             app.cancel_loading();
             app
         });

@@ -57,6 +57,7 @@ impl Exactness {
         if self == Self::Final {
             let render = &mut project.render;
             render.quality = Quality::Final;
+            render.target_error = None;
             render.step_voxels = None;
             render.wavelengths = None;
             render.samples_per_pixel = None;
@@ -78,6 +79,14 @@ impl Wish {
         // A camera that frames the flame would stand elsewhere in a picture of another shape.
         let camera = document.last_job()?.camera;
         let mut project = self.exactness.of(&document.project);
+        if self.exactness == Exactness::AsSeen {
+            // What was chosen for the window is what is seen.
+            let seen = document.last_job()?.settings;
+            let render = &mut project.render;
+            render.step_voxels = Some(seen.step_voxels);
+            render.wavelengths = Some(seen.wavelengths);
+            render.samples_per_pixel = Some(seen.samples_per_pixel);
+        }
         project.camera = CameraSettings::from(&camera);
         project.render.size = self.size;
         Some(Order {

@@ -25,12 +25,14 @@ pub(super) use overlay::overlay;
 pub(super) use status::status;
 
 use super::Document;
+use super::accuracy::Told;
 use super::exporter::Wish;
 use super::recent::Recent;
 use crate::project::{Control, Job, Mend, Preset, why_idle};
 use crate::render::Facts;
 use crate::render::costs::Cost;
 use crate::render::plan::Decision;
+use crate::study::Numbers;
 use crate::volume::BuiltIn;
 
 /// What a panel cannot do itself.
@@ -58,6 +60,10 @@ pub(super) enum Command {
     TogglePanel,
     /// Show the spectra, or hide them.
     ToggleSpectrum,
+    /// Show what accuracy costs, or hide it.
+    ToggleAccuracy,
+    /// Render with these numbers from here on.
+    Adopt(Numbers),
     /// Take the notice away.
     Dismiss,
     /// Show the window that asks for an export.
@@ -120,6 +126,7 @@ impl Panels {
         &mut self,
         ui: &mut Ui,
         document: &mut Document,
+        told: Option<&Told>,
         recent: &Recent,
         flaws: &[String],
         commands: &mut Vec<Command>,
@@ -153,7 +160,7 @@ impl Panels {
                         };
                         fire::show(ui, project, known, commands);
                         view::show(ui, project, automatic_half, commands);
-                        quality::show(ui, project);
+                        quality::show(ui, project, known, told);
                         fire::heat_and_smoke(ui, project, known);
                         air::show(ui, project, known);
                         self.stage.show(ui, project, known);

@@ -1,23 +1,39 @@
 //! How exactly the fire is computed, and what that costs.
 
-use egui::Ui;
+use std::cmp::Ordering;
+
+use egui::{Button, RichText, Ui};
 
 use super::knob::{Choice, Knob};
-use super::{section, unit};
-use crate::project::{Project, Quality, ranges};
+use super::{Known, section, short, unit};
+use crate::app::accuracy::Told;
+use crate::app::theme::IDLE;
+use crate::project::{Project, Quality, RenderSettings, ranges};
+use crate::render::{Effects, Switch};
 use crate::scene::{Interpolation, WavelengthSet};
-
-/// Rays for each pixel that are offered.
-const RAYS: [u32; 5] = [1, 2, 4, 8, 16];
+use crate::study::{RAYS, STEPS};
 
 /// Orders of scattering that are offered.
 const ORDERS: [u32; 5] = [1, 2, 4, 16, 64];
 
 /// Draws the section.
-pub(super) fn show(ui: &mut Ui, project: &mut Project) {
+pub(super) fn show(ui: &mut Ui, project: &mut Project, known: Known<'_>, told: Option<&Told>) {
     section(ui, "Quality", true, |ui| {
         let render = &mut project.render;
-        let (step_default, ..) = render.quality.numbers();
+        wished(ui, render);
+        if let Some(told) = told {
+            by_cause(ui, render, &mut project.effects, known, told);
+        }
+        // What is not set by hand is as chosen, or as for a scene that nobody has looked at yet.
+        let (step_default, wavelengths_default, rays_default) =
+            known.job.map_or(render.quality.numbers(), |job| {
+                let settings = &job.settings;
+                (
+                    settings.step_voxels,
+                    settings.wavelengths,
+                    settings.samples_per_pixel,
+                )
+            });
         let mut step = render.step_voxels.unwrap_or(step_default);
         let changed = Knob {
             label: "Step size",
@@ -33,46 +49,9 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
         }
         .show(ui, &mut step);
         if changed {
-            render.step_voxels = (step != step_default).then_some(step);
+            render.step_voxels = Some(step);
         }
-
-        let changed_by_hand = render.step_voxels.is_some()
-            || render.wavelengths.is_some()
-            || render.samples_per_pixel.is_some();
-        let options = Quality::ALL.map(|quality| {
-            let (step, wavelengths, rays) = quality.numbers();
-            if changed_by_hand && quality == render.quality {
-                return (
-                    quality,
-                    format!("{} · changed", capitalised(quality.name())),
-                    "",
-                );
-            }
-            let words = format!(
-                "{} · step {step}, {} λ, {rays} {}",
-                capitalised(quality.name()),
-                wavelengths.count(),
-                if rays == 1 { "ray" } else { "rays" },
-            );
-            (quality, words, "")
-        });
-        let changed = Choice {
-            label: "Preset",
-            options: &options,
-            tip: "Step size, wavelengths and rays together. A still can be exported at another quality.",
-            default: Quality::default(),
-            idle: None,
-        }
-        .show(ui, &mut render.quality);
-        if changed {
-            // A preset that is chosen by hand is meant to be seen.
-            (
-                render.step_voxels,
-                render.wavelengths,
-                render.samples_per_pixel,
-            ) = (None, None, None);
-        }
-        let (_, wavelengths_default, rays_default) = render.quality.numbers();
+        by_hand(ui, &mut render.step_voxels);
 
         let options = WavelengthSet::ALL.map(|set| {
             let (kind, tip) = match set {
@@ -91,8 +70,9 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
         }
         .show(ui, &mut wavelengths);
         if changed {
-            render.wavelengths = (wavelengths != wavelengths_default).then_some(wavelengths);
+            render.wavelengths = Some(wavelengths);
         }
+        by_hand(ui, &mut render.wavelengths);
 
         let mut rays = render.samples_per_pixel.unwrap_or(rays_default);
         let mut options: Vec<(u32, String, &str)> =
@@ -109,11 +89,143 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project) {
         }
         .show(ui, &mut rays);
         if changed {
-            render.samples_per_pixel = (rays != rays_default).then_some(rays);
+            render.samples_per_pixel = Some(rays);
         }
+        by_hand(ui, &mut render.samples_per_pixel);
         between_voxels(ui, &mut render.interpolation);
         orders(ui, &mut render.scattering_orders);
     });
+}
+
+/// How exact the picture is wished.
+fn wished(ui: &mut Ui, render: &mut RenderSettings) {
+    let by_hand = render.step_voxels.is_some()
+        || render.wavelengths.is_some()
+        || render.samples_per_pixel.is_some();
+    let options = Quality::ALL.map(|quality| {
+        let name = capitalised(quality.name());
+        let words = if by_hand && quality == render.quality {
+            format!("{name} · changed")
+        } else {
+            format!("{name} · {} ΔE", short(quality.target_de()))
+        };
+        (quality, words, "")
+    });
+    let changed = Choice {
+        label: "Quality",
+        options: &options,
+        tip: "How exact: step, wavelengths and rays are chosen for this fire so that 95 % of it are within so many ΔE of the \
+              finest picture. 1 is a difference that is just seen. A still can be exported at another quality.",
+        default: Quality::default(),
+        idle: None,
+    }
+    .show(ui, &mut render.quality);
+    if changed {
+        // A quality that is chosen by hand is meant to be seen.
+        render.target_error = None;
+        (
+            render.step_voxels,
+            render.wavelengths,
+            render.samples_per_pixel,
+        ) = (None, None, None);
+    }
+}
+
+/// Lets a number that was set by hand be chosen again.
+fn by_hand<T>(ui: &mut Ui, number: &mut Option<T>) {
+    if number.is_some() {
+        let button = ui.small_button("set by hand: let it be chosen");
+        let tip = "Give the number up, so that it follows the quality again.";
+        if button.on_hover_text(tip).clicked() {
+            *number = None;
+        }
+    }
+}
+
+/// The picture's error by what it comes from; a click raises only that.
+fn by_cause(
+    ui: &mut Ui,
+    render: &mut RenderSettings,
+    effects: &mut Effects,
+    known: Known<'_>,
+    told: &Told,
+) {
+    let (error, numbers) = (told.here.error, told.here.numbers);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("error from").color(IDLE));
+        let cause = |ui: &mut Ui, words: String, tip: &str, enabled: bool| {
+            let button = ui.add_enabled(enabled, Button::new(words).small());
+            button.on_hover_text(tip).clicked()
+        };
+        let finer = STEPS.into_iter().find(|step| *step < numbers.step_voxels);
+        let words = format!("step {}", short_de(error.step));
+        if cause(
+            ui,
+            words,
+            "Take the next shorter step, and leave all else.",
+            finer.is_some(),
+        ) {
+            render.step_voxels = finer;
+        }
+        let more = WavelengthSet::ALL.into_iter();
+        let more = more
+            .filter(|set| set.count() > numbers.wavelengths.count())
+            .find(|set| set.count() != 16);
+        let words = format!("wavelengths {}", short_de(error.wavelengths));
+        if cause(
+            ui,
+            words,
+            "Take more wavelengths, and leave all else.",
+            more.is_some(),
+        ) {
+            render.wavelengths = more;
+        }
+        let rays = RAYS
+            .into_iter()
+            .find(|rays| *rays > numbers.samples_per_pixel);
+        let words = format!("edges {}", short_de(error.rays));
+        if cause(
+            ui,
+            words,
+            "Take more rays for each pixel, and leave all else.",
+            rays.is_some(),
+        ) {
+            render.samples_per_pixel = rays;
+        }
+        let out = known
+            .decisions
+            .iter()
+            .filter(|it| !it.on && it.switch == Switch::Auto);
+        let largest = out
+            .filter(|it| it.bound.is_some_and(|bound| bound > 0.0))
+            .filter(|it| effects.switch_mut(it.effect).is_some())
+            .max_by(|one, other| {
+                one.bound
+                    .partial_cmp(&other.bound)
+                    .unwrap_or(Ordering::Equal)
+            });
+        let bound = largest.and_then(|it| it.bound).unwrap_or(0.0);
+        let words = format!("left out ≤ {}", short_de(bound));
+        let tip = "Compute the effect that may change most of those that are left out.";
+        if cause(ui, words, tip, largest.is_some())
+            && let Some(switch) = largest.and_then(|it| effects.switch_mut(it.effect))
+        {
+            *switch = Switch::On;
+        }
+    });
+}
+
+/// An error in two figures.
+pub(super) fn short_de(de: f64) -> String {
+    if de < 0.01 {
+        "0.00".to_owned()
+    } else if de < 1.0 {
+        format!("{de:.2}")
+    } else if de < 10.0 {
+        format!("{de:.1}")
+    } else {
+        format!("{de:.0}")
+    }
 }
 
 /// How often light may be scattered.

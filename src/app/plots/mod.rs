@@ -3,18 +3,33 @@
 //! Closed, it costs nothing. Open, it marches at most one ray in a frame, and only through a scene that the engine has
 //! packed already.
 
+mod accuracy;
 mod chart;
 mod optics;
 mod pixel;
 
-use egui::{Context, ScrollArea, Ui, Window, vec2};
+use egui::{Context, Id, ScrollArea, Ui, Window, vec2};
 
 use self::optics::OpticsPlots;
 use self::pixel::PixelPlot;
+use super::accuracy::{Accuracy, Told};
 use super::canvas::PicturePlace;
+use super::panels::Command;
 use crate::colour::display::View;
 use crate::engine::Engine;
 use crate::project::Job;
+
+/// What the plots are about.
+pub(super) struct Shown<'a> {
+    /// The job that was valid last.
+    pub(super) job: Option<&'a Job>,
+    /// How its picture is developed.
+    pub(super) view: &'a View,
+    /// What is known of errors and seconds.
+    pub(super) accuracy: &'a Accuracy,
+    /// What is said of the picture on show.
+    pub(super) told: Option<&'a Told>,
+}
 
 /// Width of the window's contents in points.
 const WIDTH: f32 = 400.0;
@@ -31,6 +46,8 @@ enum Tab {
     Pixel,
     /// The optics of a place in the fire.
     FuelAndAir,
+    /// What accuracy costs.
+    Accuracy,
 }
 
 /// What the window remembers, open or closed.
@@ -43,14 +60,17 @@ pub(super) struct Plots {
 }
 
 impl Plots {
-    /// Whether the window is open.
+    /// Whether the spectra are on show.
     pub(super) fn is_open(&self) -> bool {
-        self.is_open
+        self.is_open && self.tab != Tab::Accuracy
     }
 
-    /// Opens the window, or closes it.
+    /// Opens the window with the spectra, or closes it if it shows them.
     pub(super) fn toggle(&mut self) {
-        self.is_open = !self.is_open;
+        self.is_open = !self.is_open || self.tab == Tab::Accuracy;
+        if self.tab == Tab::Accuracy {
+            self.tab = Tab::default();
+        }
     }
 
     /// Closes the window, if it is open. True if it was.
@@ -58,21 +78,39 @@ impl Plots {
         std::mem::take(&mut self.is_open)
     }
 
+    /// Whether the chart of accuracy is on show.
+    pub(super) fn shows_accuracy(&self) -> bool {
+        self.is_open && self.tab == Tab::Accuracy
+    }
+
+    /// Opens the chart of accuracy, or closes the window if it is that.
+    pub(super) fn toggle_accuracy(&mut self) {
+        self.is_open = !self.shows_accuracy();
+        self.tab = Tab::Accuracy;
+    }
+
     /// Draws the window if it is open: of the engine's present scene, for the job that was valid last.
     pub(super) fn show(
         &mut self,
         ctx: &Context,
         engine: &Engine,
-        job: Option<&Job>,
-        view: &View,
+        shown: &Shown<'_>,
         place: &PicturePlace,
+        commands: &mut Vec<Command>,
     ) {
         if !self.is_open {
             return;
         }
+        let (job, view) = (shown.job, shown.view);
         let whole = ctx.content_rect();
         let mut open = true;
-        Window::new("Spectrum")
+        let title = if self.tab == Tab::Accuracy {
+            "Accuracy"
+        } else {
+            "Spectrum"
+        };
+        Window::new(title)
+            .id(Id::unique("plots"))
             .open(&mut open)
             .collapsible(false)
             // It grows downwards: the tabs stay under the pointer that has chosen one.
@@ -87,6 +125,9 @@ impl Plots {
                         match self.tab {
                             Tab::Pixel => self.pixel.show(ui, engine, view, place),
                             Tab::FuelAndAir => self.optics.show(ui, job),
+                            Tab::Accuracy => {
+                                accuracy::show(ui, shown.accuracy, job, shown.told, commands);
+                            }
                         }
                     });
             });
@@ -108,6 +149,11 @@ impl Plots {
                     Tab::FuelAndAir,
                     "Fuel and air",
                     "What a place in the fire does to light of each wavelength: it emits, absorbs, scatters and bends it.",
+                ),
+                (
+                    Tab::Accuracy,
+                    "Accuracy",
+                    "What accuracy costs in time: of this scene, on this machine.",
                 ),
             ] {
                 ui.selectable_value(&mut self.tab, tab, words)

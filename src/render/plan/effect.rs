@@ -161,6 +161,23 @@ impl Effects {
             wavelengths: locked(Effect::Wavelengths),
         }
     }
+
+    /// The switch of an effect; `None` where it has none.
+    pub fn switch_mut(&mut self, effect: Effect) -> Option<&mut Switch> {
+        match effect {
+            Effect::Soot => None,
+            Effect::Lines => Some(&mut self.lines),
+            Effect::Bands => Some(&mut self.bands),
+            Effect::Chemiluminescence => Some(&mut self.chemiluminescence),
+            Effect::Scattering => Some(&mut self.scattering),
+            Effect::ScatteringOrders => Some(&mut self.scattering_orders),
+            Effect::Refraction => Some(&mut self.refraction),
+            Effect::Dispersion => Some(&mut self.dispersion),
+            Effect::FireLight => Some(&mut self.fire_light),
+            Effect::Smoke => Some(&mut self.smoke),
+            Effect::Wavelengths => Some(&mut self.wavelengths),
+        }
+    }
 }
 
 /// Whether an effect is computed.

@@ -3,6 +3,7 @@
 
 use super::effect::{Effect, is_on};
 use super::{Plan, flaws, wavelengths};
+use crate::render::baked;
 use crate::render::fields::Fields;
 use crate::render::{Cancel, Level, Settings};
 use crate::scene::Scene;
@@ -28,6 +29,21 @@ impl Plan {
         })
     }
 
+    /// The same with coefficients that are summed over X, Y and Z before the march, as renderers of three colours do: to be
+    /// compared with.
+    #[must_use]
+    pub fn baked(&self, scene: &Scene, settings: &Settings) -> Self {
+        let features = scene.flame.glow().features();
+        let three = baked::wavelengths(scene);
+        let mut plan = Self::deciding(scene, settings, three, features, self.decisions.clone());
+        baked::bake(&mut plan.tables, scene);
+        if plan.wanted.bent == self.wanted.bent {
+            plan.bent = self.bent.clone();
+        }
+        flaws::add(&mut plan, scene, settings);
+        plan
+    }
+
     fn beside(&self, scene: &Scene, settings: &Settings, keeps: impl Fn(Effect) -> bool) -> Self {
         let mut decisions = self.decisions.clone();
         for decision in &mut decisions {
@@ -47,12 +63,7 @@ impl Plan {
 
     /// The plan with one effect switched the other way, and what cannot be without it left out as well. `None` where that
     /// makes no picture of this scene: the effect has nothing to act on, or the scene was packed with it or without.
-    pub(in crate::render) fn switched(
-        &self,
-        scene: &Scene,
-        settings: &Settings,
-        effect: Effect,
-    ) -> Option<Self> {
+    pub fn switched(&self, scene: &Scene, settings: &Settings, effect: Effect) -> Option<Self> {
         let was_on = is_on(&self.decisions, effect);
         let here = self.decisions.iter().find(|it| it.effect == effect)?;
         let changes_nothing = !was_on && here.bound == Some(0.0);
@@ -99,6 +110,25 @@ impl Plan {
             Effect::FireLight => stage.has_surfaces(),
             // What more of them would be is only known where more are taken.
             Effect::Wavelengths => is_on(&self.decisions, effect),
+        }
+    }
+
+    /// Takes from another plan of the same scene what it has worked out and this one needs.
+    pub fn take_over(&mut self, other: Self) {
+        if self.wanted.bent == other.wanted.bent && self.bent.get().is_none() {
+            self.bent = other.bent;
+        }
+        let same = self.wanted == other.wanted
+            && self.tables.wavelengths.nodes_nm == other.tables.wavelengths.nodes_nm
+            && self.tables.features == other.tables.features
+            && self.orders == other.orders;
+        if !same {
+            return;
+        }
+        for (mine, theirs) in self.fields.iter_mut().zip(other.fields) {
+            if mine.get().is_none() {
+                *mine = theirs;
+            }
         }
     }
 

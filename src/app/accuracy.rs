@@ -1,0 +1,261 @@
+//! What accuracy costs in the scene on show: looked at in the background, on one thread, once a fine picture of it is there.
+//!
+//! A look tells which numbers are good enough for the quality that is wished; the document takes them. While the chart is open
+//! every variant is measured as well, one after another.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+
+use crate::engine::Packed;
+use crate::project::Job;
+use crate::render::Cancel;
+use crate::scene::WavelengthSet;
+use crate::study::{self, Choice, Numbers, Pilot, Point};
+
+/// Share of an error that the next better choice has at most.
+const NEXT: f64 = 0.5;
+
+/// What is known of the scene on show.
+pub(super) struct Accuracy {
+    /// Whether numbers are chosen at all.
+    chooses: bool,
+    known: Option<Known>,
+    looking: Option<Running<Option<Arc<Pilot>>>>,
+    measured: Option<Measured>,
+    measuring: Option<Running<(Point, usize)>>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+/// A scene that was looked at.
+struct Known {
+    view: Job,
+    /// `None` where nothing is to be seen.
+    pilot: Option<Arc<Pilot>>,
+}
+
+/// A scene whose variants are being measured.
+struct Measured {
+    view: Job,
+    points: Vec<Point>,
+    /// How many there will be, once that is known.
+    of: usize,
+}
+
+/// Work on a thread of its own.
+struct Running<T> {
+    view: Job,
+    generation: Arc<AtomicU64>,
+    news: Receiver<T>,
+}
+
+impl<T> Drop for Running<T> {
+    fn drop(&mut self) {
+        // The thread ends by itself, soon; nobody waits for it.
+        self.generation.fetch_add(1, Ordering::SeqCst);
+    }
+}
+
+/// What is said of the picture on show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Told {
+    /// The picture's own.
+    pub(super) here: Choice,
+    /// The cheapest that is clearly better, if one of those that are tried is.
+    pub(super) next: Option<Choice>,
+}
+
+impl Accuracy {
+    /// Calls `wake`, from any thread, when there is something new.
+    pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+        Self {
+            chooses: true,
+            known: None,
+            looking: None,
+            measured: None,
+            measuring: None,
+            wake,
+        }
+    }
+
+    /// Whether numbers are chosen. If not, those of a scene that nobody has looked at stay.
+    pub(super) fn choose(&mut self, chooses: bool) {
+        self.chooses = chooses;
+        if !chooses {
+            self.looking = None;
+            self.known = None;
+        }
+    }
+
+    /// Whether there is nothing more to come for this job's numbers.
+    pub(super) fn is_settled(&self, job: &Job) -> bool {
+        !self.chooses || !job.accuracy.is_open() || self.is_known(job)
+    }
+
+    fn is_known(&self, job: &Job) -> bool {
+        let known = self.known.as_ref();
+        known.is_some_and(|known| known.view == view_of(job))
+    }
+
+    /// What was found out about the scene of a job.
+    pub(super) fn pilot(&self, job: &Job) -> Option<&Arc<Pilot>> {
+        let known = self.known.as_ref()?;
+        known.pilot.as_ref().filter(|_| known.view == view_of(job))
+    }
+
+    /// What is to be said of a job's picture, in which so many wavelengths are carried if that is known.
+    pub(super) fn told(&self, job: &Job, wavelengths: Option<u32>) -> Option<Told> {
+        let pilot = self.pilot(job)?;
+        let set = WavelengthSet::ALL
+            .into_iter()
+            .find(|set| Some(set.count()) == wavelengths);
+        let numbers = Numbers::of(&job.settings);
+        let here = pilot.choice(Numbers {
+            wavelengths: set.unwrap_or(numbers.wavelengths),
+            ..numbers
+        });
+        let better = NEXT * here.error.all.de95;
+        let table = pilot.table().iter();
+        let good = table.filter(|it| it.error.all.de95 <= better && it.cpu_s > here.cpu_s);
+        let next = good.min_by(|one, other| one.work.total_cmp(&other.work));
+        Some(Told {
+            here,
+            next: next.copied(),
+        })
+    }
+
+    /// The numbers that a job's wish comes to, once that is known.
+    pub(super) fn chosen(&self, job: &Job) -> Option<Numbers> {
+        if !job.accuracy.is_open() {
+            return None;
+        }
+        let pilot = self.pilot(job)?;
+        Some(pilot.choose(job.accuracy, Numbers::of(&job.settings)))
+    }
+
+    /// Takes in what was found; begins to look at the scene on show if nobody has, once there is a fine picture of it.
+    pub(super) fn follow(&mut self, job: &Job, packed: Option<Packed>, is_fine: bool) {
+        self.receive();
+        let view = view_of(job);
+        let is_late = |running: &Running<Option<Arc<Pilot>>>| running.view != view;
+        if self.looking.as_ref().is_some_and(is_late) {
+            self.looking = None;
+        }
+        let wanted = self.chooses && is_fine && self.looking.is_none() && !self.is_known(job);
+        if let (true, Some(packed)) = (wanted, packed) {
+            let wished = job.accuracy;
+            self.looking = self.run("look", view, move |cancel, sender, wake| {
+                let Packed {
+                    scene,
+                    plan,
+                    settings,
+                    ..
+                } = &packed;
+                let looked = Pilot::new(scene, plan, settings, wished, cancel);
+                if !cancel.is_cancelled() {
+                    let _ = sender.send(looked.map(|(pilot, _)| Arc::new(pilot)));
+                    wake();
+                }
+            });
+        }
+    }
+
+    /// Goes on measuring every variant of a job's scene, as long as somebody looks at the chart.
+    pub(super) fn measure(&mut self, job: &Job, is_idle: bool) {
+        let view = view_of(job);
+        if self.measured.as_ref().is_some_and(|it| it.view != view) {
+            self.stop_measuring();
+        }
+        if self.measured.is_some() || !is_idle || self.pilot(job).is_none() {
+            return;
+        }
+        self.measured = Some(Measured {
+            view: view.clone(),
+            points: Vec::new(),
+            of: 0,
+        });
+        let job = job.clone();
+        self.measuring = self.run("study", view, move |cancel, sender, wake| {
+            let _ = study::report(&job, cancel, &mut |point, of| {
+                let _ = sender.send((point.clone(), of));
+                wake();
+            });
+        });
+    }
+
+    /// Stops measuring and forgets what was measured.
+    pub(super) fn stop_measuring(&mut self) {
+        self.measuring = None;
+        self.measured = None;
+    }
+
+    /// What has been measured of a job's scene so far, and how much there will be.
+    pub(super) fn points(&self, job: &Job) -> (&[Point], usize) {
+        let view = view_of(job);
+        let measured = self.measured.as_ref().filter(|it| it.view == view);
+        measured.map_or((&[], 0), |it| (&it.points, it.of))
+    }
+
+    fn receive(&mut self) {
+        if let Some(looking) = &self.looking {
+            let found = match looking.news.try_recv() {
+                Ok(pilot) => Some(pilot),
+                Err(TryRecvError::Empty) => None,
+                // It failed: the numbers stay as they are.
+                Err(TryRecvError::Disconnected) => Some(None),
+            };
+            if let Some(pilot) = found {
+                let view = looking.view.clone();
+                self.known = Some(Known { view, pilot });
+                self.looking = None;
+            }
+        }
+        if let (Some(measuring), Some(measured)) = (&self.measuring, &mut self.measured) {
+            for (point, of) in measuring.news.try_iter() {
+                measured.of = of;
+                measured.points.push(point);
+            }
+        }
+    }
+
+    /// Works on a thread of its own with a pool of one: the picture has the other cores. `None` if the system gives none.
+    fn run<T: Send + 'static>(
+        &self,
+        name: &str,
+        view: Job,
+        work: impl FnOnce(&Cancel, &Sender<T>, &(dyn Fn() + Send + Sync)) + Send + 'static,
+    ) -> Option<Running<T>> {
+        let (sender, news) = channel();
+        let generation = Arc::new(AtomicU64::new(0));
+        let cancel = Cancel::when_passed(Arc::clone(&generation), 0);
+        let wake = Arc::clone(&self.wake);
+        let all = move || {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+            if let Ok(pool) = pool {
+                let work = AssertUnwindSafe(|| pool.install(|| work(&cancel, &sender, &*wake)));
+                // A panic was told where it happened; who waits hears that nobody sends any more.
+                let _ = catch_unwind(work);
+            }
+            wake();
+        };
+        let thread = std::thread::Builder::new().name(format!("sootlight-{name}"));
+        thread.spawn(all).is_ok().then_some(Running {
+            view,
+            generation,
+            news,
+        })
+    }
+}
+
+/// A job without its numbers: what is known of one is known of all with the same.
+fn view_of(job: &Job) -> Job {
+    let mut view = job.clone();
+    let numbers = Numbers {
+        step_voxels: 1.0,
+        ..study::REFERENCE
+    };
+    view.settings = numbers.within(&view.settings);
+    view.settings.effects.wavelengths = crate::render::Switch::Auto;
+    view
+}

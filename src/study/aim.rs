@@ -1,0 +1,73 @@
+//! From how exact a picture is wished to the numbers that it is rendered with.
+
+use std::time::Instant;
+
+use super::numbers::Numbers;
+use super::pilot::Pilot;
+use crate::project::Accuracy;
+use crate::render::{Cancel, Plan, Settings};
+use crate::scene::{Scene, WavelengthSet};
+
+/// What a picture is rendered with.
+#[derive(Debug)]
+pub struct Aim {
+    /// The settings with the numbers chosen.
+    pub settings: Settings,
+    /// What is computed with them.
+    pub plan: Plan,
+    /// What is known of errors and seconds; `None` where there was nothing to choose, or nothing to be seen.
+    pub pilot: Option<Pilot>,
+}
+
+/// Share of the time that is left for which a march is chosen: what it takes is known within a quarter.
+const CAUTION: f64 = 0.75;
+
+/// Chooses the numbers that are as accurate as wished, in the calling thread's rayon pool, beginning from the settings and
+/// plan of a scene that nobody has looked at. `end`: when the picture is to be done at the latest, if that matters; only then
+/// the choice depends on the machine.
+pub fn aim(
+    scene: &Scene,
+    plan: Plan,
+    settings: &Settings,
+    wished: Accuracy,
+    end: Option<Instant>,
+    cancel: &Cancel,
+) -> Aim {
+    let looked = wished
+        .is_open()
+        .then(|| Pilot::new(scene, &plan, settings, wished, cancel));
+    let Some((pilot, tried)) = looked.flatten() else {
+        return Aim {
+            settings: *settings,
+            plan,
+            pilot: None,
+        };
+    };
+    let given = Numbers::of(settings);
+    let numbers = match end {
+        Some(end) => {
+            let left = end.saturating_duration_since(Instant::now());
+            pilot.choose_within(wished, given, CAUTION * left.as_secs_f64())
+        }
+        None => pilot.choose(wished, given),
+    };
+    let settings = numbers.within(settings);
+    // What is at the border stays as it was decided.
+    let mut chosen = Plan::after(scene, &settings, &plan.decisions);
+    for other in [Some(plan), tried].into_iter().flatten() {
+        chosen.take_over(other);
+    }
+    // The plan may carry more, where what falls on a stage or is scattered calls for it.
+    let carried = WavelengthSet::ALL
+        .into_iter()
+        .find(|set| set.count() == chosen.wavelengths());
+    let settings = Settings {
+        wavelengths: carried.unwrap_or(settings.wavelengths),
+        ..settings
+    };
+    Aim {
+        settings,
+        plan: chosen,
+        pilot: Some(pilot),
+    }
+}

@@ -1,0 +1,123 @@
+//! One number, tried with all else the same.
+
+use super::numbers::{RAYS, STEPS};
+use super::sight::{Error, Picture, Sight};
+use crate::render::part::{Part, Rendered};
+use crate::render::{Cancel, Plan, Settings};
+use crate::scene::{Scene, WavelengthSet};
+
+/// Step at which wavelengths and rays are tried, voxels.
+pub(super) const STEP: f64 = 1.0;
+
+/// One number, tried.
+#[derive(Debug, Clone)]
+pub(super) struct Tried<T> {
+    pub(super) what: T,
+    pub(super) xyz: Picture,
+    /// How it looks different from the finest, pixel by pixel and in all.
+    pub(super) shift: Vec<[f64; 3]>,
+    pub(super) error: Error,
+    /// Samples, processor's seconds and wall-clock seconds of the whole picture as the part has it.
+    pub(super) samples: f64,
+    pub(super) cpu_s: f64,
+    pub(super) wall_s: f64,
+}
+
+impl<T> Tried<T> {
+    fn new(what: T, rendered: Rendered) -> Self {
+        Self {
+            what,
+            xyz: rendered.xyz,
+            shift: Vec::new(),
+            error: Error::default(),
+            samples: rendered.samples,
+            cpu_s: rendered.cpu_s,
+            wall_s: rendered.wall_s,
+        }
+    }
+}
+
+/// Every set of wavelengths, without light from all sides.
+pub(super) fn sets(
+    scene: &Scene,
+    plan: &Plan,
+    settings: &Settings,
+    part: &Part,
+    cancel: &Cancel,
+) -> Option<Vec<Tried<WavelengthSet>>> {
+    let each = |set| {
+        let settings = Settings {
+            wavelengths: set,
+            ..*settings
+        };
+        let direct = plan.direct(scene, &settings);
+        let rendered = part.render(scene, &direct, STEP, 1, cancel)?;
+        Some(Tried::new(set, rendered))
+    };
+    WavelengthSet::ALL.into_iter().map(each).collect()
+}
+
+/// Steps, longest first, with one that was set by hand.
+pub(super) fn steps(
+    scene: &Scene,
+    plan: &Plan,
+    set: f64,
+    part: &Part,
+    cancel: &Cancel,
+) -> Option<Vec<Tried<f64>>> {
+    let mut all = STEPS.to_vec();
+    if !all.contains(&set) {
+        all.push(set);
+        all.sort_by(|one, other| other.total_cmp(one));
+    }
+    let each = |step| {
+        let rendered = part.render(scene, plan, step, 1, cancel)?;
+        Some(Tried::new(step, rendered))
+    };
+    all.into_iter().map(each).collect()
+}
+
+/// Rays for each pixel, of which one was tried among the steps.
+pub(super) fn rays(
+    scene: &Scene,
+    plan: &Plan,
+    one: &Tried<f64>,
+    part: &Part,
+    cancel: &Cancel,
+) -> Option<Vec<Tried<u32>>> {
+    let one = Rendered {
+        xyz: one.xyz.clone(),
+        samples: one.samples,
+        cpu_s: one.cpu_s,
+        wall_s: one.wall_s,
+    };
+    let mut all = vec![Tried::new(RAYS[0], one)];
+    for count in RAYS.into_iter().skip(1) {
+        let rendered = part.render(scene, plan, STEP, count, cancel)?;
+        all.push(Tried::new(count, rendered));
+    }
+    Some(all)
+}
+
+/// Compares what was tried with the finest of it.
+pub(super) fn compare<T>(sight: &Sight, all: &mut [Tried<T>], finest: &[[f64; 3]]) {
+    for tried in all {
+        tried.shift = sight.shift(finest, &tried.xyz);
+        tried.error = sight.error(finest, &tried.xyz);
+    }
+}
+
+/// How many times as bright each channel of each pixel is in another picture; 1 where one of them is dark.
+pub(super) fn times(one: &[[f64; 3]], other: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let of_channel = |one: f64, other: f64| {
+        if one > 0.0 && other > 0.0 {
+            other / one
+        } else {
+            1.0
+        }
+    };
+    let pixels = one.iter().zip(other);
+    pixels
+        .map(|(one, other)| std::array::from_fn(|c| of_channel(one[c], other[c])))
+        .collect()
+}
