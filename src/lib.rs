@@ -9,7 +9,7 @@
 //!
 //! ```text
 //! 10 main.rs      run, print the error chain, exit code
-//!  9 cli          flags → validated command: window | render | info | spectrum
+//!  9 cli          flags → validated command: window | render | study | info | spectrum
 //!  8 app          the window (feature `window`)
 //!  7 engine       background rendering for the window: submit(Job), drain() → tiles
 //!    study        accuracy against time: variants, reference, the front; which numbers are good enough
@@ -44,6 +44,7 @@
 //! * **stage**: matt surfaces that the fire lights; **backdrop**: a shining screen behind everything.
 //! * **feature**: a line, a band or a part of the radicals' light, carried at a wavelength of its own.
 //! * **film**: the only place where a spectrum becomes three numbers.
+//! * **error** of a picture: the 95th percentile of ΔE_ITP over lit pixels, against the study's reference.
 //! * **flaw**: what could not be faithful, carried with the frame and told to the person.
 
 #[cfg(feature = "window")]

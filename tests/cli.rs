@@ -12,6 +12,7 @@ mod outputs;
 mod place;
 mod spectrum;
 mod stage;
+mod study;
 mod view;
 
 use place::{Place, read_png};

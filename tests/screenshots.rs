@@ -191,3 +191,33 @@ fn of_the_shared_volumes() {
         &["embergen_cc0/embergen_fire_a_60.vdb"],
     );
 }
+
+#[test]
+#[ignore = "writes screenshots/, by the command at the top of this file"]
+fn of_what_accuracy_costs() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    let data = shared.join("data");
+    for (name, file) in [
+        ("plume", "plume/plume.vdb"),
+        ("pool", "pool/pool_0022_zip_half.vdb"),
+        ("embergen", "embergen_cc0/embergen_fire_a_60.vdb"),
+    ] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let status = Command::new(PROGRAM)
+            .current_dir(&data)
+            .args(["study", file, "--size", "640x360", "-o"])
+            .arg(folder.path())
+            .status()
+            .unwrap();
+        assert!(status.success(), "{name}");
+        for ending in ["png", "svg", "csv"] {
+            let output = cleared(&format!("accuracy_{name}.{ending}"));
+            std::fs::copy(folder.path().join(format!("accuracy.{ending}")), output).unwrap();
+        }
+    }
+    // The chart, once some of it was measured.
+    let hands = "xdotool search --name Sootlight windowfocus; sleep 0.3; xdotool key c; sleep 60";
+    window_after(&data, "window_accuracy.png", &["plume/plume.vdb"], hands);
+}

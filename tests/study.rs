@@ -135,3 +135,22 @@ fn predictions_hold_in_all_scenes() {
         compare(file, &Looked::at(&[path], &[], [240, 160]));
     }
 }
+
+#[test]
+fn three_colours_do_where_little_is_absorbed_and_not_behind_soot() {
+    let off = |amount: &str| {
+        let sets = [amount, "effects.scattering=off", "effects.refraction=off"];
+        let looked = Looked::at(&[], &sets, [48, 48]);
+        let plan = Plan::new(&looked.scene, &looked.settings);
+        let baked = plan.baked(&looked.scene, &looked.settings);
+        let picture = |plan: &Plan| {
+            let settings = &looked.settings;
+            xyz(&render_planned(&looked.scene, plan, settings, &Cancel::never(), &|_| {}).unwrap())
+        };
+        difference(&picture(&plan), &picture(&baked)).p95
+    };
+    let (thin, thick) = (off("soot.amount=0.001"), off("soot.amount=30"));
+    // Planck's law is held by two temperatures there; what is left is of cooler soot.
+    assert!(thin < 1.0, "{thin}");
+    assert!(thick > 3.0 * thin, "{thin} {thick}");
+}

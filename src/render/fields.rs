@@ -36,7 +36,7 @@ pub enum Paths {
 }
 
 /// The fields of one scene.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Fields {
     pub(super) scatter: Option<Arc<InScatter>>,
     pub(super) fire_light: Option<Arc<FireLight>>,

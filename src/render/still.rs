@@ -49,12 +49,12 @@ pub fn render_planned(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Option<Frame> {
     let passes = pass::ladder(settings, pass::Audience::Still);
-    let frame = render_passes(scene, plan, settings, &passes, cancel, progress);
+    let frame = render_passes(scene, plan, settings, &passes, [cancel; 2], progress);
     (!cancel.is_cancelled() && frame.finished).then_some(frame)
 }
 
-/// The same, which ends at a moment if it has not ended by itself, with what there is by then and a flaw that says so: coarse
-/// passes go before, so that the picture is whole however soon that is.
+/// The same, which ends at a moment if it has not ended by itself, with what there is by then and a flaw that says so. Coarse
+/// passes go before, and the first of them is finished however soon that moment is: the picture is whole.
 pub fn render_until(
     scene: &Scene,
     plan: &Plan,
@@ -65,7 +65,8 @@ pub fn render_until(
 ) -> Option<Frame> {
     let passes = pass::ladder(settings, pass::Audience::Window);
     let in_time = cancel.or_at(end);
-    let mut frame = render_passes(scene, plan, settings, &passes, &in_time, progress);
+    let cancels = [cancel, &in_time];
+    let mut frame = render_passes(scene, plan, settings, &passes, cancels, progress);
     if cancel.is_cancelled() {
         return None;
     }
@@ -77,18 +78,20 @@ pub fn render_until(
     Some(frame)
 }
 
+/// Renders the passes until one is cancelled: the first by its own cancel.
 fn render_passes(
     scene: &Scene,
     plan: &Plan,
     settings: &Settings,
     passes: &[pass::Pass],
-    cancel: &Cancel,
+    [first, later]: [&Cancel; 2],
     progress: &(dyn Fn(f64) + Sync),
 ) -> Frame {
     let film = Mutex::new(Film::new(settings.size));
     let counts = [AtomicU64::new(0), AtomicU64::new(0)];
     let all: u64 = passes.iter().map(|pass| pass.rays(settings.size)).sum();
-    let finished = passes.iter().all(|pass| {
+    let finished = passes.iter().enumerate().all(|(i, pass)| {
+        let cancel = if i == 0 { first } else { later };
         render_pass(scene, plan, pass, cancel, &|tile| {
             counts[1].fetch_add(tile.samples, Ordering::Relaxed);
             film.lock()

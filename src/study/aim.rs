@@ -22,6 +22,9 @@ pub struct Aim {
 /// Share of the time that is left for which a march is chosen: what it takes is known within a quarter.
 const CAUTION: f64 = 0.75;
 
+/// Share of the time in which the scene may be looked at: if that is too little, the numbers stay as they are.
+const SHARE_TO_LOOK: f64 = 0.4;
+
 /// Chooses the numbers that are as accurate as wished, in the calling thread's rayon pool, beginning from the settings and
 /// plan of a scene that nobody has looked at. `end`: when the picture is to be done at the latest, if that matters; only then
 /// the choice depends on the machine.
@@ -33,9 +36,12 @@ pub fn aim(
     end: Option<Instant>,
     cancel: &Cancel,
 ) -> Aim {
+    let now = Instant::now();
+    let to_look = end.map(|end| end.saturating_duration_since(now).mul_f64(SHARE_TO_LOOK));
+    let in_time = to_look.map_or_else(|| cancel.clone(), |time| cancel.or_after(time));
     let looked = wished
         .is_open()
-        .then(|| Pilot::new(scene, &plan, settings, wished, cancel));
+        .then(|| Pilot::new(scene, &plan, settings, wished, &in_time));
     let Some((pilot, tried)) = looked.flatten() else {
         return Aim {
             settings: *settings,
@@ -54,7 +60,7 @@ pub fn aim(
     let settings = numbers.within(settings);
     // What is at the border stays as it was decided.
     let mut chosen = Plan::after(scene, &settings, &plan.decisions);
-    for other in [Some(plan), tried].into_iter().flatten() {
+    for other in [Some(&plan), tried.as_ref()].into_iter().flatten() {
         chosen.take_over(other);
     }
     // The plan may carry more, where what falls on a stage or is scattered calls for it.

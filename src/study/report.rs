@@ -77,6 +77,8 @@ pub struct Report {
 
 /// What all variants of a scene are measured with.
 struct Bench<'a> {
+    /// Plans of every set so far, and what their fields took.
+    known: Vec<(Plan, Took)>,
     job: &'a Job,
     scene: &'a Scene,
     plan: &'a Plan,
@@ -113,7 +115,8 @@ pub fn report(
     let at = plan.at(&scene, &REFERENCE.within(&settings));
     let rays = REFERENCE.samples_per_pixel;
     let reference = part.render(&scene, &at, REFERENCE.step_voxels, rays, cancel)?;
-    let bench = Bench {
+    let mut bench = Bench {
+        known: Vec::new(),
         job,
         scene: &scene,
         plan: &plan,
@@ -201,7 +204,7 @@ impl Bench<'_> {
     }
 
     /// `None` if cancelled.
-    fn measure(&self, variant: Variant) -> Option<Point> {
+    fn measure(&mut self, variant: Variant) -> Option<Point> {
         let settings = variant.numbers.within(&self.settings);
         let another = self.another_scene(variant.interpolation);
         let (scene, basis) = match &another {
@@ -209,7 +212,7 @@ impl Bench<'_> {
             Some(Err(words)) => return Some(Point::failed(variant, words.clone())),
             None => (self.scene, self.plan),
         };
-        let plan = match (variant.family, variant.switched) {
+        let mut plan = match (variant.family, variant.switched) {
             (Family::Baked, _) => basis.baked(scene, &settings),
             (_, Some(effect)) => {
                 let at = basis.at(scene, &settings);
@@ -217,8 +220,17 @@ impl Bench<'_> {
             }
             _ => basis.at(scene, &settings),
         };
-        let (fields, in_fields) = timed_on_pool(|| plan.fields(scene, Level::Fine, self.cancel));
+        let is_usual =
+            another.is_none() && variant.switched.is_none() && variant.family != Family::Baked;
+        let mut known = self.known.iter();
+        let known = known.find(|(it, _)| is_usual && it.wavelengths() == plan.wavelengths());
+        if let Some((known, _)) = known {
+            plan.take_over(known);
+        }
+        let known = known.map(|(_, took)| *took);
+        let (fields, took) = timed_on_pool(|| plan.fields(scene, Level::Fine, self.cancel));
         fields?;
+        let in_fields = known.unwrap_or(took);
         let numbers = variant.numbers;
         let rays = numbers.samples_per_pixel;
         let mut took: Vec<Took> = Vec::new();
@@ -242,19 +254,21 @@ impl Bench<'_> {
         if xyz.iter().flatten().any(|value| !value.is_finite()) {
             return Some(Point::failed(variant, "pixels are no numbers".to_owned()));
         }
+        let against = plan.flaws.iter();
+        let against = against.filter(|flaw| !self.plan.flaws.iter().any(|it| it == *flaw));
+        let against = against.map(str::to_owned).next();
+        if is_usual && known.is_none() {
+            self.known.push((plan, in_fields));
+        }
         took.sort_by(|one, other| one.wall_s.total_cmp(&other.wall_s));
         let (quickest, slowest) = (took[0], took[took.len() - 1]);
         let error = self.sight.error(&self.reference, &xyz);
-        let against = plan
-            .flaws
-            .iter()
-            .find(|flaw| !self.plan.flaws.iter().any(|it| it == *flaw));
         Some(Point {
             took: self.planning + in_fields + took[took.len() / 2],
             spread_s: 0.5 * (slowest.wall_s - quickest.wall_s),
             error: error.at_least(self.pilot.own_error()),
             on_front: false,
-            status: against.map_or(Status::Measured, |flaw| Status::Unstable(flaw.to_owned())),
+            status: against.map_or(Status::Measured, Status::Unstable),
             variant,
         })
     }

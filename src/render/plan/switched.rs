@@ -114,9 +114,9 @@ impl Plan {
     }
 
     /// Takes from another plan of the same scene what it has worked out and this one needs.
-    pub fn take_over(&mut self, other: Self) {
+    pub fn take_over(&mut self, other: &Self) {
         if self.wanted.bent == other.wanted.bent && self.bent.get().is_none() {
-            self.bent = other.bent;
+            self.bent = other.bent.clone();
         }
         let same = self.wanted == other.wanted
             && self.tables.wavelengths.nodes_nm == other.tables.wavelengths.nodes_nm
@@ -125,9 +125,9 @@ impl Plan {
         if !same {
             return;
         }
-        for (mine, theirs) in self.fields.iter_mut().zip(other.fields) {
+        for (mine, theirs) in self.fields.iter_mut().zip(&other.fields) {
             if mine.get().is_none() {
-                *mine = theirs;
+                mine.clone_from(theirs);
             }
         }
     }
