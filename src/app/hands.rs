@@ -31,7 +31,7 @@ impl App {
             match command {
                 Command::Ask => self.loader.ask(),
                 Command::Open(paths) => self.open(paths),
-                Command::BuiltIn(flame) => self.loader.begin(Request::OtherBuiltIn(flame, None)),
+                Command::BuiltIn(flame) => self.begin(Request::OtherBuiltIn(flame, None)),
                 Command::Preset(preset) => self.take(preset),
                 Command::CancelLoading => self.cancel_loading(),
                 Command::Undo => self.document.undo(),

@@ -99,10 +99,11 @@ impl App {
         let exporter = Exporter::new(Arc::new(move || export_wake.request_repaint()));
         let load_wake = ctx.clone();
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
-        loader.begin(match project.volume.path.as_slice() {
+        let first = match project.volume.path.as_slice() {
             [] => Request::BuiltIn(project.volume.built_in),
             paths => Request::Project(paths.to_vec(), project.wanted()),
-        });
+        };
+        loader.begin(first, project.volume.limits());
         Ok(Self {
             document: Document::new(project),
             engine,

@@ -8,7 +8,7 @@ use super::medium::Medium;
 use super::packing;
 use crate::math::Aabb;
 use crate::physics::soot::SootLaw;
-use crate::volume::{FieldMap, FieldMaps, Limits, Volume};
+use crate::volume::{FieldMap, FieldMaps, Volume};
 
 pub use super::flame_params::{
     Bending, BentAir, FlameParams, Placement, Scattering, ScatteringParams,
@@ -38,7 +38,7 @@ impl Flame {
                 let frame = params.placement.world_from_file();
                 Arc::new(
                     fields
-                        .pack(&frame, &Limits::default())
+                        .pack(&frame, &volume.limits)
                         .unwrap_or_else(|_| packing::empty()),
                 )
             },

@@ -94,9 +94,8 @@ impl Request {
 }
 
 /// Does what is asked, and says what came of it.
-pub(super) fn load(request: Request, watch: &Watch) -> Outcome {
-    let limits = Limits::default();
-    let open = |paths, wanted| volume::open_wanted(paths, wanted, &limits, watch);
+pub(super) fn load(request: Request, limits: &Limits, watch: &Watch) -> Outcome {
+    let open = |paths, wanted| volume::open_wanted(paths, wanted, limits, watch);
     let outcome = match &request {
         Request::BuiltIn(flame) => flame
             .volume_watched(watch)
@@ -115,7 +114,7 @@ pub(super) fn load(request: Request, watch: &Watch) -> Outcome {
                 volume: v.into(),
             })
         }
-        Request::Partner(open, path) => open_partner(open, path, &limits, watch),
+        Request::Partner(open, path) => open_partner(open, path, limits, watch),
     };
     let outcome = outcome.unwrap_or_else(|error| Outcome::Failed {
         request,
