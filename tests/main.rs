@@ -18,6 +18,7 @@ mod engine;
 mod golden;
 mod ground_truth;
 mod hard_cases;
+mod hostile;
 mod loading;
 mod render;
 mod screenshots;

@@ -1,0 +1,5 @@
+//! Nothing bad gets in: mutations of every format, and bad files from many threads at once.
+
+mod mutate;
+mod mutations;
+mod threads;
