@@ -2,4 +2,5 @@
 
 mod mutate;
 mod mutations;
+mod spoilt;
 mod threads;

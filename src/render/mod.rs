@@ -332,3 +332,6 @@ pub fn render_planned(
         flaws: plan.flaws.clone(),
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -143,3 +143,17 @@ pub fn world_bounds(volume: &Volume, maps: &FieldMaps, placement: &Placement) ->
         .chain(burning)
         .fold(Aabb::EMPTY, |all, bulk| all.union(&bulk))
 }
+
+#[cfg(test)]
+impl Flame {
+    /// This flame with one number of its packed field spoilt, soot (0) or temperature (1): for tests of how far that
+    /// reaches.
+    pub(crate) fn with_spoilt_sample(&self, at: usize, field: usize) -> Self {
+        let mut medium = (*self.medium).clone();
+        medium.samples[at][field] = f32::NAN;
+        Self {
+            medium: Arc::new(medium),
+            ..self.clone()
+        }
+    }
+}
