@@ -20,6 +20,7 @@ mod ground_truth;
 mod hard_cases;
 mod hostile;
 mod loading;
+mod properties;
 mod render;
 mod screenshots;
 #[cfg(feature = "window")]
