@@ -51,6 +51,8 @@ impl App {
                 Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
                 Command::ToggleSpectrum => self.plots.toggle(),
                 Command::Dismiss => self.notice = None,
+                Command::Restore => self.restore(),
+                Command::ForgetSession => self.autosave.forget(),
                 Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
                 Command::Export(wish) => {
                     // What was measured on a coarse picture is about to be measured again.

@@ -75,11 +75,29 @@ impl App {
         }
     }
 
+    /// Begins to open what was open in a window that did not end by itself. What is open stays until that is read.
+    pub(super) fn restore(&mut self) {
+        if let Some(project) = self.autosave.left().cloned() {
+            let limits = project.volume.limits();
+            self.notice = None;
+            self.loader
+                .begin(Request::Session(Arc::new(project)), limits);
+        }
+    }
+
     /// Takes in what the loader read.
     pub(super) fn receive(&mut self) {
         while let Some(outcome) = self.loader.poll() {
             match outcome {
                 Outcome::Shown(volume) => self.show(volume, Document::open),
+                Outcome::Restored(volume, project) => {
+                    self.show(volume, |document, volume| {
+                        document.replace_and(volume, |changed| changed.clone_from(&project))
+                    });
+                    if self.document.project == *project {
+                        self.autosave.take_over(&project);
+                    }
+                }
                 Outcome::Replaced(volume) => self.show(volume, Document::replace),
                 Outcome::Burning(volume, preset) => self.show(volume, |document, volume| {
                     document.replace_and(volume, |project| preset.apply(project))
