@@ -15,6 +15,7 @@ mod bounds;
 mod cli;
 mod common;
 mod engine;
+mod extremes;
 mod faults;
 mod golden;
 mod ground_truth;
