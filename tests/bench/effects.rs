@@ -11,7 +11,7 @@
 //! A last line compares the picture whose effects are decided automatically with the same picture where each was switched by
 //! hand to what was decided: what deciding costs.
 //!
-//! Before it stands what soot costs that is so thin that its light is below what f32 holds in full (1.2e-38): denormal
+//! The first lines are what soot costs that is so thin that its light is below what f32 holds in full (1.2e-38): denormal
 //! numbers take a hundred times as long on some processors, and must not come up.
 
 #![allow(clippy::print_stdout, reason = "what a bench is for")]
@@ -72,11 +72,11 @@ fn main() {
         };
         println!("{name}, 512 × 512, one thread; time over that of emission and absorption alone:");
         println!("  {:<18} {:>8} {:>8} {:>8}", "effect", "on", "off", "noise");
-        for (effect, calls, switch) in EFFECTS {
-            measure(&volume, effect, calls, switch);
-        }
         for amount in THIN {
             measure_thin(&volume, amount);
+        }
+        for (effect, calls, switch) in EFFECTS {
+            measure(&volume, effect, calls, switch);
         }
         measure_deciding(&volume);
     }
