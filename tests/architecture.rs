@@ -190,6 +190,24 @@ fn unsafe_stands_in_one_file() {
     }
 }
 
+/// `deny.toml` holds licences and advisories by a tool that need not be there; where crates come from can be told here.
+#[test]
+fn every_dependency_comes_from_the_registry() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let deny = std::fs::read_to_string(root.join("deny.toml")).unwrap();
+    let registry = "https://github.com/rust-lang/crates.io-index";
+    assert!(deny.contains(&format!("allow-registry = [\"{registry}\"]")));
+    let lock = std::fs::read_to_string(root.join("Cargo.lock")).unwrap();
+    let sources: Vec<&str> = lock
+        .lines()
+        .filter_map(|line| line.strip_prefix("source = "))
+        .collect();
+    assert!(sources.len() > 100);
+    for source in sources {
+        assert_eq!(source, format!("\"registry+{registry}\""));
+    }
+}
+
 #[test]
 fn files_of_a_room_make_no_circles() {
     let mut uses: BTreeMap<(String, String), BTreeSet<String>> = BTreeMap::new();

@@ -17,6 +17,7 @@ mod glow;
 mod null_collision;
 mod orders;
 mod plain;
+mod precision;
 mod scattering;
 mod z_test;
 

@@ -1,7 +1,6 @@
 //! Files of every kind become volumes, or errors that help.
 
 mod borders;
-mod fuzz;
 mod real;
 mod wanted;
 mod watching;
@@ -18,7 +17,7 @@ use sootlight::volume::{
     Border, Grid, Limits, Producer, Volume, VolumeError, open, recognise, summarise,
 };
 
-fn hostile(name: &str) -> PathBuf {
+pub(super) fn hostile(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/hostile")
         .join(name)
@@ -47,7 +46,7 @@ fn voxels(min: IVec3, max: IVec3) -> impl Iterator<Item = IVec3> {
 }
 
 /// Packs and renders what was read, as it would be shown; false if it cannot be.
-fn survives_a_render(volume: Volume, name: &str) -> bool {
+pub(super) fn survives_a_render(volume: Volume, name: &str) -> bool {
     let mut project = Project::default();
     project.render.size = [16, 16];
     let Ok(job) = project.job(&Arc::new(volume)) else {

@@ -8,6 +8,7 @@ mod fire;
 mod opening;
 mod plots;
 mod real;
+mod session;
 mod shader;
 mod stage;
 mod view;

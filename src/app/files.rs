@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use request::load;
 pub(super) use request::{Outcome, Request};
 
-use crate::volume::Watch;
+use crate::volume::{Limits, Watch};
 
 /// A dialog that closes sooner was never seen by anybody.
 const TOO_QUICK_FOR_A_PERSON: Duration = Duration::from_millis(400);
@@ -72,8 +72,8 @@ impl Loader {
         })
     }
 
-    /// Begins to load; an older load counts only if this one fails.
-    pub(super) fn begin(&mut self, request: Request) {
+    /// Begins to load what may cost so much; an older load counts only if this one fails.
+    pub(super) fn begin(&mut self, request: Request, limits: Limits) {
         self.newest += 1;
         let ticket = self.newest;
         let watch = Watch::default();
@@ -89,7 +89,7 @@ impl Loader {
             .name("sootlight-loader".into())
             .spawn(move || {
                 let again = request.clone();
-                let outcome = catch_unwind(AssertUnwindSafe(|| load(request, &watch)))
+                let outcome = catch_unwind(AssertUnwindSafe(|| load(request, &limits, &watch)))
                     .unwrap_or_else(|_| {
                         let words = format!(
                             "{}: reading it failed unexpectedly; nothing was opened",

@@ -32,7 +32,7 @@ impl App {
             match command {
                 Command::Ask => self.loader.ask(),
                 Command::Open(paths) => self.open(paths),
-                Command::BuiltIn(flame) => self.loader.begin(Request::OtherBuiltIn(flame, None)),
+                Command::BuiltIn(flame) => self.begin(Request::OtherBuiltIn(flame, None)),
                 Command::Preset(preset) => self.take(preset),
                 Command::CancelLoading => self.cancel_loading(),
                 Command::Undo => self.document.undo(),
@@ -59,6 +59,8 @@ impl App {
                     render.samples_per_pixel = Some(numbers.samples_per_pixel);
                 }),
                 Command::Dismiss => self.notice = None,
+                Command::Restore => self.restore(),
+                Command::ForgetSession => self.autosave.forget(),
                 Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
                 Command::Export(wish) => {
                     // What was measured on a coarse picture is about to be measured again.

@@ -132,5 +132,6 @@ mod tests {
         assert_eq!(words([[1.0; 3], [0.0; 3]]), "");
         let spoilt = words([[1.0; 3], [f32::NAN, 1.0, 1.0]]);
         assert!(spoilt.starts_with("1 pixels are no numbers"), "{spoilt}");
+        assert!(spoilt.contains("column 1, row 0"), "{spoilt}");
     }
 }

@@ -5,12 +5,14 @@
 //! the only place that does. Exposure, adaptation and curve are no part of a job; they only change the view.
 
 mod accuracy;
+mod autosave;
 mod canvas;
 mod document;
 mod exporter;
 mod files;
 mod hands;
 mod history;
+mod lost;
 mod meter;
 mod opening;
 mod panels;
@@ -20,17 +22,20 @@ mod recent;
 mod start;
 mod theme;
 
+use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 pub use canvas::{Display, Mapping};
 pub use document::{Document, FieldRow};
 pub use start::{AppError, run};
 
 use self::accuracy::{Accuracy, Told};
+use self::autosave::Autosave;
 use self::canvas::Canvas;
 use self::exporter::Exporter;
 use self::files::{Loader, Request};
+use self::lost::Lost;
 use self::meter::Meter;
 use self::panels::Panels;
 use self::pictures::Submitted;
@@ -45,6 +50,11 @@ use crate::project::{Job, Project};
 const FRAME: Duration = Duration::from_millis(30);
 /// While a file is read, how far it is is drawn this often.
 const LOADING_FRAME: Duration = Duration::from_millis(100);
+
+/// The program's name to the desktop, and of its folder of data.
+const APP_ID: &str = "sootlight";
+/// Where in that folder it is kept what is open.
+const SESSIONS: &str = "sessions";
 
 /// The window.
 pub struct App {
@@ -64,6 +74,8 @@ pub struct App {
     panels: Panels,
     plots: Plots,
     recent: Recent,
+    autosave: Autosave,
+    lost: Lost,
     /// Whether brightness and white are to be measured again, on the next picture.
     expose_anew: bool,
     /// What went wrong last, until it is dismissed.
@@ -105,11 +117,21 @@ impl App {
         let study_wake = ctx.clone();
         let load_wake = ctx.clone();
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
-        loader.begin(match project.volume.path.as_slice() {
+        let first = match project.volume.path.as_slice() {
             [] => Request::BuiltIn(project.volume.built_in),
             paths => Request::Project(paths.to_vec(), project.wanted()),
-        });
+        };
+        loader.begin(first, project.volume.limits());
+        // What is remembered between windows stands beside it; a window that remembers nothing keeps nothing.
+        let folder = creation.storage.and_then(|_| eframe::storage_dir(APP_ID));
+        let autosave = folder.map(|folder| Autosave::in_folder(&folder.join(SESSIONS), &project));
+        let lost = Lost::default();
+        if let Some(state) = &creation.wgpu_render_state {
+            lost.watch(&state.device, ctx);
+        }
         Ok(Self {
+            lost,
+            autosave: autosave.unwrap_or_default(),
             document: Document::new(project),
             engine,
             picture: Picture::new([1, 1]),
@@ -187,6 +209,12 @@ impl App {
         self.notice.as_deref()
     }
 
+    /// Keeps what is set in this folder from here on, as windows of the desktop do in their data folder, and offers what
+    /// another window left there that did not end by itself.
+    pub fn keep_in(&mut self, folder: &Path) {
+        self.autosave = Autosave::in_folder(folder, &self.document.project);
+    }
+
     /// Moves the camera so that all of the flame is seen, from the side that it is seen from now.
     pub fn frame_all(&mut self) {
         self.document.frame_all();
@@ -200,6 +228,16 @@ impl App {
             .into_iter()
             .flat_map(|job| job.flaws.iter());
         self.picture.progress.flaws.iter().chain(assumed).collect()
+    }
+
+    fn keep_what_is_set(&mut self, ctx: &egui::Context) {
+        let project = &self.document.project;
+        if let Some(wait) = self.autosave.follow(project, Instant::now()) {
+            ctx.request_repaint_after(wait);
+        }
+        if let Some(words) = self.autosave.problem() {
+            self.notice = Some(words);
+        }
     }
 
     fn retitle(&mut self, ctx: &egui::Context) {
@@ -216,6 +254,14 @@ impl eframe::App for App {
         self.recent.save(storage);
     }
 
+    fn on_exit(&mut self) {
+        // Without a device the window did not end by itself.
+        if self.lost.words().is_none() {
+            self.autosave.end();
+        }
+        self.lost.end();
+    }
+
     fn persist_egui_memory(&self) -> bool {
         false
     }
@@ -224,6 +270,9 @@ impl eframe::App for App {
         self.receive();
         self.read_what_is_lacking();
         self.exporter.poll();
+        if self.lost.words().is_some() && self.closing != Closing::Now {
+            self.closing = Closing::AfterExport;
+        }
         // A hidden window can be closed as well.
         self.guard_the_export(ctx);
         self.drain();
@@ -234,6 +283,7 @@ impl eframe::App for App {
         if self.loader.loading().is_some() {
             ctx.request_repaint_after(LOADING_FRAME);
         }
+        self.keep_what_is_set(ctx);
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::files::{Outcome, Request};
 use super::{App, Document};
-use crate::project::{BackdropKind, CameraSettings, Preset, ProjectError, VolumeSettings};
+use crate::project::{BackdropKind, CameraSettings, Preset, ProjectError};
 use crate::volume::{BuiltIn, Volume};
 
 /// Whether a file is a picture by its name: it goes behind the fire.
@@ -34,7 +34,7 @@ impl App {
             _ => Request::Files(paths, self.document.wanted_of_another()),
         };
         self.notice = None;
-        self.loader.begin(request);
+        self.begin(request);
     }
 
     /// Stops whatever is being loaded; what is open stays. Where nothing is open yet, the built-in flame is loaded.
@@ -55,8 +55,8 @@ impl App {
             return;
         }
         if let (Some(open), Some(wanted)) = (self.document.volume(), self.document.lacking()) {
-            self.loader
-                .begin(Request::Lacking(Arc::clone(open), wanted));
+            let request = Request::Lacking(Arc::clone(open), wanted);
+            self.begin(request);
         }
     }
 
@@ -66,7 +66,7 @@ impl App {
         let open = self.document.volume().and_then(|volume| volume.built_in);
         let best = preset.project().volume.built_in;
         if open.is_some_and(|open| open != best) {
-            self.loader.begin(Request::OtherBuiltIn(best, Some(preset)));
+            self.begin(Request::OtherBuiltIn(best, Some(preset)));
         } else {
             self.document
                 .change(|document| preset.apply(&mut document.project));
@@ -75,11 +75,29 @@ impl App {
         }
     }
 
+    /// Begins to open what was open in a window that did not end by itself. What is open stays until that is read.
+    pub(super) fn restore(&mut self) {
+        if let Some(project) = self.autosave.left().cloned() {
+            let limits = project.volume.limits();
+            self.notice = None;
+            self.loader
+                .begin(Request::Session(Arc::new(project)), limits);
+        }
+    }
+
     /// Takes in what the loader read.
     pub(super) fn receive(&mut self) {
         while let Some(outcome) = self.loader.poll() {
             match outcome {
                 Outcome::Shown(volume) => self.show(volume, Document::open),
+                Outcome::Restored(volume, project) => {
+                    self.show(volume, |document, volume| {
+                        document.replace_and(volume, |changed| changed.clone_from(&project))
+                    });
+                    if self.document.project == *project {
+                        self.autosave.take_over(&project);
+                    }
+                }
                 Outcome::Replaced(volume) => self.show(volume, Document::replace),
                 Outcome::Burning(volume, preset) => self.show(volume, |document, volume| {
                     document.replace_and(volume, |project| preset.apply(project))
@@ -149,8 +167,15 @@ impl App {
     /// Loads the built-in flame in place of what the project names.
     fn fall_back(&mut self) {
         // The settings were made for files that are not shown.
-        self.document.project.volume = VolumeSettings::default();
-        self.document.project.camera = CameraSettings::default();
-        self.loader.begin(Request::BuiltIn(BuiltIn::default()));
+        let project = &mut self.document.project;
+        project.volume = project.volume.for_another_file();
+        project.camera = CameraSettings::default();
+        self.begin(Request::BuiltIn(BuiltIn::default()));
+    }
+
+    /// Begins to load, under the limits that are set.
+    pub(super) fn begin(&mut self, request: Request) {
+        let limits = self.document.project.volume.limits();
+        self.loader.begin(request, limits);
     }
 }

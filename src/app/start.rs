@@ -1,11 +1,13 @@
 //! Opening the window, and what to say where that fails.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::OnceLock;
 
 use eframe::egui_wgpu::WgpuError;
 use thiserror::Error;
 
 use super::App;
+use super::lost::Lost;
 use crate::project::Project;
 
 /// Why there is no window.
@@ -32,6 +34,11 @@ pub enum AppError {
     /// The system gives no threads.
     #[error("the render threads could not be started")]
     Threads(#[source] std::io::Error),
+    /// The graphics device is gone: its driver was reset, or it was taken away.
+    #[error(
+        "the graphics device was lost ({0}): open the window again, which offers to restore what was open and set"
+    )]
+    DeviceLost(String),
     /// The program is wrong.
     #[error("the window failed unexpectedly: {0}")]
     Failed(String),
@@ -51,7 +58,7 @@ pub fn run(project: Project) -> Result<(), AppError> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title(title.as_str())
-            .with_app_id("sootlight")
+            .with_app_id(super::APP_ID)
             .with_inner_size(SIZE)
             .with_min_inner_size(LEAST_SIZE)
             .with_icon(egui::IconData::default())
@@ -59,16 +66,22 @@ pub fn run(project: Project) -> Result<(), AppError> {
         renderer: eframe::Renderer::Wgpu,
         ..eframe::NativeOptions::default()
     };
+    let device = OnceLock::new();
     let open = || {
-        eframe::run_native(
-            &title,
-            options,
-            Box::new(|creation| Ok(Box::new(App::new(creation, project)?))),
-        )
+        let device = &device;
+        let create = move |creation: &eframe::CreationContext<'_>| {
+            let app = App::new(creation, project)?;
+            let _ = device.set(app.lost.clone());
+            Ok(Box::new(app) as Box<dyn eframe::App>)
+        };
+        eframe::run_native(&title, options, Box::new(create))
     };
     // A dependency panics where a library of X11 cannot be loaded.
     match catch_unwind(AssertUnwindSafe(open)) {
-        Ok(Ok(())) => Ok(()),
+        Ok(Ok(())) => match device.get().and_then(Lost::words) {
+            Some(words) => Err(AppError::DeviceLost(words.to_owned())),
+            None => Ok(()),
+        },
         Ok(Err(error)) => Err(from_eframe(error)),
         Err(panic) => {
             let words = panic.downcast_ref::<&str>().copied();

@@ -16,6 +16,9 @@ pub(super) fn run(project: Project) -> Result<(), CliError> {
         )));
     }
     crate::app::run(project).map_err(|error| {
+        if matches!(error, crate::app::AppError::DeviceLost(_)) {
+            return CliError::Said(error.to_string());
+        }
         // A driver's words may be many lines.
         let words = error.to_string().replace('\n', " ");
         CliError::Said(format!("the window cannot be opened ({words}): {INSTEAD}"))

@@ -83,6 +83,13 @@ impl Project {
                 self.volume.voxel_size_m.unwrap_or(1.0),
                 ranges::VOXEL_SIZE_M,
             ),
+            (
+                "volume.memory_limit_mb",
+                self.volume
+                    .memory_limit_mb
+                    .unwrap_or(ranges::MEMORY_LIMIT_MB[0]),
+                ranges::MEMORY_LIMIT_MB,
+            ),
         ];
         match numbers
             .into_iter()

@@ -248,6 +248,7 @@ mod tests {
             ("air.co2_ppm", ranges::CO2_PPM),
             ("camera.fov_deg", ranges::FOV_DEG),
             ("render.step_voxels", ranges::STEP_VOXELS),
+            ("volume.memory_limit_mb", ranges::MEMORY_LIMIT_MB),
             ("view.exposure_ev", ranges::EXPOSURE_EV),
             ("view.adaptation", ranges::ADAPTATION),
             ("view.white_k", ranges::WHITE_K),

@@ -12,7 +12,7 @@ use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
 use crate::render::Effects;
 use crate::scene::{Camera, Fuel, Salt};
-use crate::volume::{BuiltIn, Producer};
+use crate::volume::{BuiltIn, Limits, Producer};
 
 mod air;
 mod render;
@@ -65,6 +65,10 @@ pub struct VolumeSettings {
     /// Edge of a voxel in metres; `None`: the file's own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub voxel_size_m: Option<f64>,
+    /// What a file, its grids and what is packed of them may cost in memory, each, in megabytes of 10⁶ bytes; `None`:
+    /// [`Limits::default`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub memory_limit_mb: Option<f64>,
     /// Overrides of the preset, field by field.
     #[serde(skip_serializing_if = "FieldSettings::is_unset")]
     pub soot: FieldSettings,
@@ -77,6 +81,23 @@ pub struct VolumeSettings {
     /// Overrides of the preset's temperature.
     #[serde(skip_serializing_if = "FieldSettings::is_unset")]
     pub temperature: FieldSettings,
+}
+
+impl VolumeSettings {
+    /// What the volume may cost.
+    pub fn limits(&self) -> Limits {
+        self.memory_limit_mb
+            .map_or_else(Limits::default, Limits::of_memory_mb)
+    }
+
+    /// What holds for any file: the limits of this machine, and nothing that was said of the file.
+    #[must_use]
+    pub fn for_another_file(&self) -> Self {
+        Self {
+            memory_limit_mb: self.memory_limit_mb,
+            ..Self::default()
+        }
+    }
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -281,6 +302,7 @@ pub(super) fn everything_set() -> Project {
             producer: Producer::Physical,
             up: Up::Y,
             voxel_size_m: Some(0.1 + 0.2),
+            memory_limit_mb: Some(64.5),
             soot: field("soot"),
             smoke: field(""),
             flame: field("flames"),

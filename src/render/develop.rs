@@ -145,7 +145,8 @@ impl Metering {
     }
 }
 
-/// What a film says against itself: pixels that are no numbers (shown and written as black).
+/// What a film says against itself: pixels that are no numbers (shown and written as black), and where the first of them
+/// is, row by row from the top.
 pub fn flaws_of(film: &Film) -> Flaws {
     let mut flaws = Flaws::default();
     let is_spoilt = |pixel: &&Pixel| {
@@ -156,9 +157,12 @@ pub fn flaws_of(film: &Film) -> Flaws {
             .any(|value| !value.is_finite())
     };
     let spoilt = film.pixels().iter().filter(is_spoilt).count();
-    if spoilt > 0 {
+    if let Some(first) = film.pixels().iter().position(|pixel| is_spoilt(&pixel)) {
+        let width = film.size()[0] as usize;
+        let (column, row) = (first % width, first / width);
         flaws.add(format!(
-            "{spoilt} pixels are no numbers and are shown as black"
+            "{spoilt} pixels are no numbers and are shown as black, the first in column {column}, row {row}, counted \
+             from 0 at the upper left"
         ));
     }
     flaws

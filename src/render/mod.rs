@@ -278,3 +278,6 @@ impl Cancel {
             || self.until.is_some_and(|until| Instant::now() > until)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,7 +8,7 @@ use super::medium::Medium;
 use super::packing;
 use crate::math::Aabb;
 use crate::physics::soot::SootLaw;
-use crate::volume::{FieldMap, FieldMaps, Limits, Volume};
+use crate::volume::{FieldMap, FieldMaps, Volume};
 
 pub use super::flame_params::{
     Bending, BentAir, FlameParams, Placement, Scattering, ScatteringParams,
@@ -38,7 +38,7 @@ impl Flame {
                 let frame = params.placement.world_from_file();
                 Arc::new(
                     fields
-                        .pack(&frame, &Limits::default())
+                        .pack(&frame, &volume.limits)
                         .unwrap_or_else(|_| packing::empty()),
                 )
             },
@@ -142,4 +142,18 @@ pub fn world_bounds(volume: &Volume, maps: &FieldMaps, placement: &Placement) ->
     soot.into_iter()
         .chain(burning)
         .fold(Aabb::EMPTY, |all, bulk| all.union(&bulk))
+}
+
+#[cfg(test)]
+impl Flame {
+    /// This flame with one number of its packed field spoilt, soot (0) or temperature (1): for tests of how far that
+    /// reaches.
+    pub(crate) fn with_spoilt_sample(&self, at: usize, field: usize) -> Self {
+        let mut medium = (*self.medium).clone();
+        medium.samples[at][field] = f32::NAN;
+        Self {
+            medium: Arc::new(medium),
+            ..self.clone()
+        }
+    }
 }

@@ -9,7 +9,7 @@ use super::interpolation::Interpolation;
 use super::packing::{Burning, Fields, GasFields, PackingError};
 use crate::physics::constants::METRES_PER_NM;
 use crate::physics::soot::{self, Hold, SootLaw, SootModel};
-use crate::volume::{FieldMap, FieldMaps, Limits, UpAxis, Volume};
+use crate::volume::{FieldMap, FieldMaps, UpAxis, Volume};
 
 /// How the file's axes and lengths lie in the world of metres with z up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -188,7 +188,7 @@ impl FlameParams {
     /// # Errors
     /// They lie too far apart or fill too much of the air.
     pub fn check(&self, volume: &Volume) -> Result<(), PackingError> {
-        self.effect().key.fields(volume).check(&Limits::default())
+        self.effect().key.fields(volume).check(&volume.limits)
     }
 
     /// Weights of soot and smoke in the packed medium, and the factor that is left to the laws. With soot alone its

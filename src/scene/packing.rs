@@ -43,8 +43,9 @@ pub enum PackingError {
     /// The bricks in which something shows need too much memory.
     #[error(
         "what shows fills {bricks} bricks, {} MB when packed, more than {} MB: does an offset or a min above zero \
-         fill the air with soot, or heat it until its salt glows?",
-        .bytes >> 20, .limit >> 20
+         fill the air with soot, or heat it until its salt glows? If it is as it should be, raise volume.memory_limit_mb \
+         to {} and open it again",
+        .bytes >> 20, .limit >> 20, .bytes.div_ceil(1_000_000)
     )]
     TooLarge {
         /// Bricks in which something shows.

@@ -102,6 +102,8 @@ impl Chart<'_> {
             .configure_mesh()
             .x_desc("seconds for the whole picture")
             .y_desc("error, ΔE_ITP (95 % of lit pixels are nearer)")
+            .x_labels(14)
+            .y_labels(14)
             .x_label_formatter(&|value| label(*value))
             .y_label_formatter(&|value| label(*value))
             .label_style((FONT, 17))
@@ -130,7 +132,7 @@ impl Chart<'_> {
         self.qualities(&mut plane)?;
         plane
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(SeriesLabelPosition::LowerLeft)
             .label_font((FONT, 17))
             .background_style(WHITE.mix(0.9))
             .border_style(RGBColor(200, 200, 200))
@@ -185,18 +187,20 @@ impl Chart<'_> {
         DB::ErrorType: 'static,
     {
         let points = self.report.points.iter();
-        let points: Vec<&Point> = points
+        let mut points: Vec<&Point> = points
             .filter(|it| it.variant.family == family && is_placed(it))
             .collect();
+        points.sort_by(|one, other| place(one)[0].total_cmp(&place(other)[0]));
         if points.is_empty() {
             return Ok(());
         }
         let colour = colour(family);
         let line = points.iter().map(|it| place(it)).map(|[x, y]| (x, y));
-        // Effects are no line: each is a thing of its own.
-        let width = u32::from(!matches!(family, Family::Effects | Family::Interpolation)) * 2;
+        // Effects and interpolations are no line: each is a thing of its own.
+        let is_line = !matches!(family, Family::Effects | Family::Interpolation);
+        let line = line.filter(|_| is_line);
         plane
-            .draw_series(LineSeries::new(line, colour.stroke_width(width)))?
+            .draw_series(LineSeries::new(line, colour.stroke_width(2)))?
             .label(family.title())
             .legend(move |(x, y)| Circle::new((x + 12, y), 5, colour.filled()));
         plane.draw_series(points.iter().map(|it| {

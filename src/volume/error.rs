@@ -50,7 +50,7 @@ pub enum VolumeError {
         message: String,
     },
     /// The volume would need more than the limits allow.
-    #[error("{path}: {what} needs {needed} {unit}, the limit is {limit}: crop or resample the volume", path = path.display())]
+    #[error("{path}: {what} needs {needed} {unit}, the limit is {limit}: crop or resample the volume{or}", path = path.display(), or = or_raise(*raise_to_mb))]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -60,8 +60,10 @@ pub enum VolumeError {
         needed: u64,
         /// How much is allowed, in `unit`.
         limit: u64,
-        /// "bytes" or "bricks of 8³ voxels in its box".
+        /// "bytes" or "bricks of 8³ voxels".
         unit: &'static str,
+        /// The limit under which it fits, in megabytes of 10⁶ bytes, if there is one.
+        raise_to_mb: Option<u64>,
     },
     /// The file is well-formed but none of its grids can be used.
     #[error("{path}: no scalar grid can be used: {reasons}; expected a float, half or double fog volume such as density, flame or temperature", path = path.display())]
@@ -108,6 +110,12 @@ pub enum VolumeError {
 
 fn line_prefix(line: Option<u64>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))
+}
+
+fn or_raise(megabytes: Option<u64>) -> String {
+    megabytes.map_or_else(String::new, |mb| {
+        format!(", or raise volume.memory_limit_mb to {mb}")
+    })
 }
 
 fn dims(dims: IVec3) -> String {

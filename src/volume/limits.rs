@@ -14,17 +14,42 @@ pub struct Limits {
     pub max_extent_bricks: u64,
 }
 
+/// Least and most megabytes (10⁶ bytes) that a person can allow.
+pub const MEMORY_LIMIT_MB: [f64; 2] = [16.0, 1e6];
+
+/// Share of the memory that pays for a brick of the box, stored or not: a table has 4 bytes for each, and what is
+/// computed brick by brick some more.
+const BYTES_PER_EXTENT_BRICK: u64 = 64;
+/// Most bricks of a box: tables are looked up with 32 bits.
+const MOST_EXTENT_BRICKS: u64 = 1 << 30;
+const MB: f64 = 1e6;
+
 impl Default for Limits {
     /// 4 GiB, and 2²⁶ bricks: a box of about 3200³ voxels.
     fn default() -> Self {
-        Self {
-            max_bytes: 4 << 30,
-            max_extent_bricks: 1 << 26,
-        }
+        Self::of_bytes(4 << 30)
     }
 }
 
 impl Limits {
+    /// What a person allows, in megabytes of 10⁶ bytes, within [`MEMORY_LIMIT_MB`].
+    pub fn of_memory_mb(megabytes: f64) -> Self {
+        let [least, most] = MEMORY_LIMIT_MB;
+        Self::of_bytes((megabytes.clamp(least, most) * MB) as u64)
+    }
+
+    fn of_bytes(max_bytes: u64) -> Self {
+        Self {
+            max_bytes,
+            max_extent_bricks: (max_bytes / BYTES_PER_EXTENT_BRICK).min(MOST_EXTENT_BRICKS),
+        }
+    }
+
+    /// How `max_bytes` can be set, in megabytes of 10⁶ bytes.
+    pub fn memory_mb(&self) -> f64 {
+        self.max_bytes as f64 / MB
+    }
+
     /// Refuses what would need more than `max_bytes` resident.
     pub(super) fn check_bytes(
         &self,
@@ -41,6 +66,7 @@ impl Limits {
             needed,
             limit: self.max_bytes,
             unit: "bytes",
+            raise_to_mb: raise_to_mb(needed, 1, u64::MAX),
         })
     }
 
@@ -61,6 +87,7 @@ impl Limits {
             needed,
             limit: self.max_extent_bricks,
             unit: "bricks of 8³ voxels",
+            raise_to_mb: raise_to_mb(needed, BYTES_PER_EXTENT_BRICK, MOST_EXTENT_BRICKS),
         })
     }
 
@@ -77,5 +104,101 @@ impl Limits {
         bricks: u64,
     ) -> Result<(), VolumeError> {
         self.check_bytes(path, what, bricks.saturating_mul((BRICK_LEN * 4) as u64))
+    }
+}
+
+impl VolumeError {
+    /// The same refusal of something for which there is less room, because of what was read before it.
+    pub(super) fn beside(self, bytes: u64) -> Self {
+        match self {
+            Self::TooLarge {
+                path,
+                what,
+                needed,
+                limit,
+                unit,
+                raise_to_mb: Some(alone),
+            } => Self::TooLarge {
+                path,
+                what,
+                needed,
+                limit,
+                unit,
+                raise_to_mb: Some(alone + (bytes as f64 / MB).ceil() as u64),
+            },
+            other => other,
+        }
+    }
+}
+
+/// The limit, in megabytes, under which so many pieces of this many bytes fit; `None` where none is high enough.
+fn raise_to_mb(pieces: u64, bytes: u64, most: u64) -> Option<u64> {
+    let needed = (pieces.saturating_mul(bytes) as f64 / MB).ceil();
+    (pieces <= most && needed <= MEMORY_LIMIT_MB[1]).then_some(needed as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use glam::IVec3;
+
+    use super::*;
+
+    #[test]
+    fn a_refusal_says_which_limit_would_do_and_that_one_does() {
+        let path = Path::new("a.vdb");
+        let limits = Limits::of_memory_mb(100.0);
+        let said = |refused: Result<(), VolumeError>| refused.unwrap_err().to_string();
+        let words = said(limits.check_bytes(path, "the grid", 1_234_567_890));
+        assert!(
+            words.contains("raise volume.memory_limit_mb to 1235"),
+            "{words}"
+        );
+        let raised = Limits::of_memory_mb(1235.0);
+        raised.check_bytes(path, "the grid", 1_234_567_890).unwrap();
+
+        let bounds = IndexBox {
+            min: IVec3::ZERO,
+            max: IVec3::splat(8 * 200),
+        };
+        let words = said(limits.check_extent(path, "the box", bounds));
+        assert!(
+            words.contains("raise volume.memory_limit_mb to 512"),
+            "{words}"
+        );
+        let raised = Limits::of_memory_mb(512.0);
+        raised.check_extent(path, "the box", bounds).unwrap();
+
+        // What no machine holds is not recommended.
+        for refused in [
+            limits.check_bytes(path, "the grid", u64::MAX),
+            limits.check_extent(
+                path,
+                "the box",
+                IndexBox {
+                    min: IVec3::MIN,
+                    max: IVec3::MAX,
+                },
+            ),
+        ] {
+            let words = said(refused);
+            assert!(
+                words.contains("crop") && !words.contains("raise"),
+                "{words}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_default_is_what_it_says() {
+        let limits = Limits::default();
+        assert_eq!(
+            (limits.max_bytes, limits.max_extent_bricks),
+            (1 << 32, 1 << 26)
+        );
+        assert_eq!(
+            Limits::of_memory_mb(f64::INFINITY).max_extent_bricks,
+            1 << 30
+        );
     }
 }

@@ -87,7 +87,7 @@ fn open_together(
         parts.push(part);
         before_it = after_it;
     }
-    Ok(merge(parts, wanted))
+    Ok(merge(parts, wanted, limits))
 }
 
 /// Opens what is wanted of files, or makes the given built-in flame if there are none.
@@ -230,7 +230,7 @@ fn check_together(a: &FileVolume, b: &FileVolume) -> Result<(), VolumeError> {
     }
 }
 
-fn merge(parts: Vec<FileVolume>, wanted: &Wanted) -> Volume {
+fn merge(parts: Vec<FileVolume>, wanted: &Wanted, limits: &Limits) -> Volume {
     let format = parts
         .iter()
         .map(|part| part.format)
@@ -242,6 +242,7 @@ fn merge(parts: Vec<FileVolume>, wanted: &Wanted) -> Volume {
         grids: Vec::new(),
         unread: Vec::new(),
         read_for: wanted.clone(),
+        limits: *limits,
         skipped: Vec::new(),
         sources: Vec::new(),
         metadata: Metadata::default(),

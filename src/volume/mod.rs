@@ -42,7 +42,7 @@ pub use field::{
 };
 pub use grid::{Border, BrickRef, Grid};
 pub use lattice::{BRICK_EDGE, BRICK_LEN, IndexBox, brick_of};
-pub use limits::Limits;
+pub use limits::{Limits, MEMORY_LIMIT_MB};
 pub use load::{open, open_or_built_in, open_wanted, open_watched};
 pub use naming::figures;
 pub use preset::{GLOW_K, PEAK_K, mapping, preset};
@@ -111,6 +111,8 @@ pub struct Volume {
     pub unread: Vec<UnreadGrid>,
     /// What was wanted of the files.
     pub read_for: Wanted,
+    /// What it may cost, as a file and packed for rendering.
+    pub limits: Limits,
     /// Grids of the files that are not used.
     pub skipped: Vec<SkippedGrid>,
     /// The files, in the order they were given.
@@ -134,6 +136,7 @@ impl Volume {
             grids,
             unread: Vec::new(),
             read_for: Wanted::everything(),
+            limits: Limits::default(),
             skipped: Vec::new(),
             sources: Vec::new(),
             format: Format::Computed,

@@ -52,7 +52,15 @@ pub(super) fn read(
         limits: *limits,
         stretch,
     };
-    catch_unwind(AssertUnwindSafe(|| reader.read()))
+    contained(path, || reader.read())
+}
+
+/// What a reader gives; its panic becomes an error like any other.
+fn contained<T>(
+    path: &Path,
+    read: impl FnOnce() -> Result<T, VolumeError>,
+) -> Result<T, VolumeError> {
+    catch_unwind(AssertUnwindSafe(read))
         .unwrap_or_else(|_| Err(damaged(path, "its contents made the OpenVDB reader fail")))
 }
 
@@ -123,7 +131,9 @@ impl Reader<'_> {
             after_it = after_it.saturating_add(cost(found[at].descriptor));
             let stretch = stretch.part(before_it as f32 / all, after_it as f32 / all);
             stretch.check()?;
-            let grid = self.read_grid(file, &found[at], &left, stretch, &mut volume.notes)?;
+            let grid = self
+                .read_grid(file, &found[at], &left, stretch, &mut volume.notes)
+                .map_err(|error| error.beside(self.limits.max_bytes - left.max_bytes))?;
             left.max_bytes = left.max_bytes.saturating_sub(grid.bytes());
             grids[at] = Some(grid);
         }
@@ -239,4 +249,24 @@ fn reasons(skipped: &[SkippedGrid]) -> String {
         .map(|grid| format!("{} ({})", grid.name, grid.reason))
         .collect();
     list.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    #[test]
+    fn a_panic_of_the_reader_is_an_error_that_names_the_file_and_what_to_do() {
+        let path = Path::new("fire.vdb");
+        let numbers: Vec<i32> = Vec::new();
+        let error = contained(path, || Ok(numbers[path.as_os_str().len()])).unwrap_err();
+        let words = error.to_string();
+        assert!(
+            words.starts_with("fire.vdb: damaged OpenVDB file")
+                && words.ends_with("write the file again"),
+            "{words}"
+        );
+        assert_eq!(contained(path, || Ok(1)).unwrap(), 1);
+    }
 }

@@ -10,6 +10,9 @@
 //!
 //! A last line compares the picture whose effects are decided automatically with the same picture where each was switched by
 //! hand to what was decided: what deciding costs.
+//!
+//! The first lines are what soot costs that is so thin that its light is below what f32 holds in full (1.2e-38), over soot
+//! that is as clear but told in full: denormal numbers take a hundred times as long on some processors.
 
 #![allow(clippy::print_stdout, reason = "what a bench is for")]
 
@@ -69,11 +72,63 @@ fn main() {
         };
         println!("{name}, 512 × 512, one thread; time over that of emission and absorption alone:");
         println!("  {:<18} {:>8} {:>8} {:>8}", "effect", "on", "off", "noise");
+        for amount in THIN {
+            measure_thin(&volume, amount);
+        }
         for (effect, calls, switch) in EFFECTS {
             measure(&volume, effect, calls, switch);
         }
         measure_deciding(&volume);
     }
+}
+
+/// Amounts of soot whose light is denormal, or nothing, in f32.
+const THIN: [f64; 3] = [1e-36, 1e-39, 1e-42];
+/// An amount through which everything is seen as well, with the same sums, but whose light is told in full.
+const CLEAR: f64 = 1e-20;
+
+/// Time of so little soot over that of a clear fire.
+fn measure_thin(volume: &Arc<Volume>, amount: f64) {
+    let alone = [
+        "render.size=[512, 512]",
+        "effects.scattering=off",
+        "effects.refraction=off",
+        "effects.chemiluminescence=off",
+    ];
+    let job = |amount: f64| {
+        let mut project = Project::default();
+        project.set_all(alone).ok()?;
+        project.soot.amount = amount;
+        project.smoke.amount = amount;
+        project.job(volume).ok()
+    };
+    let (Some(thin), Some(clear)) = (job(amount), job(CLEAR)) else {
+        return println!("  thin: cannot be rendered");
+    };
+    let jobs = [thin, clear];
+    // One packed medium, so that neither finds the caches emptied by the other.
+    let first = jobs[0].scene(None);
+    let scenes = [first.clone(), jobs[1].scene(Some(&first))];
+    let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(1).build() else {
+        return println!("  thin: no thread");
+    };
+    let seconds = |i: usize| {
+        let begun = Instant::now();
+        let render = || render_still(&scenes[i], &jobs[i].settings, &Cancel::never(), &|_| {});
+        std::hint::black_box(pool.install(render));
+        begun.elapsed().as_secs_f64()
+    };
+    let pair = |_| [seconds(0) / seconds(1), seconds(1) / seconds(1)];
+    let pairs: Vec<[f64; 2]> = (0..PAIRS).map(pair).collect();
+    let [thin, noise] = [0, 1].map(|which: usize| {
+        let mut ratios: Vec<f64> = pairs.iter().map(|pair| pair[which]).collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios[PAIRS / 2]
+    });
+    println!(
+        "  thin, soot × {amount:<8e} {thin:>8.2} {:>8} {noise:>8.3}",
+        ""
+    );
 }
 
 /// Automatic against switched by hand to the same, in seconds of one thread.

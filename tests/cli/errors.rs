@@ -143,3 +143,31 @@ fn without_a_display_one_sentence_says_what_to_do_instead() {
     );
     assert_eq!((error.lines().count(), said.as_str()), (1, ""), "{error}");
 }
+
+#[test]
+fn a_limit_of_memory_is_raised_as_the_refusal_says() {
+    let place = Place::new();
+    // 4.4 million values are 17.6 MB.
+    let row = format!("{}\n", "1 ".repeat(200));
+    let text = format!("200 200 110\n{}", row.repeat(200 * 110));
+    std::fs::write(place.path("large_density.txt"), text).unwrap();
+    let info = "info large_density.txt --set volume.memory_limit_mb";
+    let [_, error] = place.expect(1, &format!("{info}=16"));
+    assert!(
+        error.contains(
+            "large_density.txt: the dense box needs 17600000 bytes, the limit is 16000000"
+        ) && error.contains("raise volume.memory_limit_mb to 18"),
+        "{error}"
+    );
+    // What is packed of the grid takes twice as much: the next refusal names that.
+    let [_, error] = place.expect(2, &format!("{info}=18"));
+    let enough = error.split("raise volume.memory_limit_mb to ").nth(1);
+    let enough: String = enough
+        .unwrap_or_else(|| panic!("{error}"))
+        .chars()
+        .take_while(char::is_ascii_digit)
+        .collect();
+    place.expect(0, &format!("{info}={enough}"));
+    let [_, error] = place.expect(2, &format!("{info}=1"));
+    assert!(error.contains("must lie between 16 and 1000000"), "{error}");
+}

@@ -33,7 +33,7 @@ fn random_colours() -> Vec<[f32; 3]> {
 }
 
 /// A device to draw with, or words that say why the test is skipped.
-fn device() -> Option<RenderState> {
+pub(super) fn device() -> Option<RenderState> {
     let state = std::panic::catch_unwind(|| {
         let setup = egui_kittest::wgpu::default_wgpu_setup();
         egui_kittest::wgpu::create_render_state(setup, RendererOptions::PREDICTABLE)

@@ -45,7 +45,7 @@ impl Document {
         project.volume = VolumeSettings {
             path: volume.sources.clone(),
             built_in: volume.built_in.unwrap_or_default(),
-            ..VolumeSettings::default()
+            ..project.volume.for_another_file()
         };
         project.camera = CameraSettings::default();
         change(&mut project);
@@ -100,7 +100,7 @@ impl Document {
 
     /// What would be needed of other files, opened with these settings.
     pub fn wanted_of_another(&self) -> Wanted {
-        let volume = VolumeSettings::default();
+        let volume = self.project.volume.for_another_file();
         Project {
             volume,
             ..self.project.clone()

@@ -1,4 +1,6 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+use std::sync::atomic::AtomicBool;
+
 use super::*;
 use crate::export::Format;
 use crate::project::Project;
@@ -146,4 +148,23 @@ fn the_window_is_woken_now_and_then_and_at_the_end() {
     let most = begun.elapsed().as_millis() as u64 / WAKE_MS + 1;
     let woken = count.load(Ordering::SeqCst);
     assert!((1..=most).contains(&woken), "{woken} of at most {most}");
+}
+
+#[test]
+fn a_worker_that_panics_fails_the_export_in_words_and_the_next_one_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    // The fault is planted in what workers call to wake the window.
+    let armed = Arc::new(AtomicBool::new(true));
+    let fuse = Arc::clone(&armed);
+    let wake = move || assert!(!fuse.swap(false, Ordering::SeqCst), "planted fault");
+    let mut exporter = Exporter::new(Arc::new(wake));
+    exporter.begin(order(folder.path().join("a.exr"), 512));
+    let Outcome::Failed(words) = outcome(&mut exporter) else {
+        panic!("the fault was not met");
+    };
+    assert!(words.contains("planted fault"), "{words}");
+    assert!(words.contains("Nothing was written"), "{words}");
+    assert!(is_empty(&folder));
+    exporter.begin(order(folder.path().join("a.exr"), 16));
+    assert!(matches!(outcome(&mut exporter), Outcome::Done { .. }));
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::project::Preset;
+use crate::project::{Preset, Project};
 use crate::volume::{self, BuiltIn, Limits, Volume, VolumeError, Wanted, Watch};
 
 /// Share of a partner's load that opening it with the open volume takes: seldom must it be read again alone.
@@ -16,6 +16,8 @@ pub(in crate::app) enum Request {
     BuiltIn(BuiltIn),
     /// What the project names: settings stay as they are.
     Project(Vec<PathBuf>, Wanted),
+    /// What a project that was kept names, to be shown with that project's settings.
+    Session(Arc<Project>),
     /// These files as one volume, instead of what is open.
     Files(Vec<PathBuf>, Wanted),
     /// The open volume's files once more, with grids that were left unread.
@@ -31,6 +33,8 @@ pub(in crate::app) enum Request {
 pub(in crate::app) enum Outcome {
     /// A volume for the project as it stands.
     Shown(Arc<Volume>),
+    /// A volume with the project that was kept of it.
+    Restored(Arc<Volume>, Arc<Project>),
     /// A volume that takes the place of the open one.
     Replaced(Arc<Volume>),
     /// One that does so and burns as in a preset.
@@ -67,6 +71,7 @@ impl Outcome {
     fn volume(&self) -> Option<&Arc<Volume>> {
         match self {
             Self::Shown(volume)
+            | Self::Restored(volume, _)
             | Self::Replaced(volume)
             | Self::Burning(volume, _)
             | Self::Completed { both: volume, .. }
@@ -87,6 +92,10 @@ impl Request {
                 format!("the built-in {}", flame.name())
             }
             Self::Project(paths, _) | Self::Files(paths, _) => names(paths),
+            Self::Session(project) if project.volume.path.is_empty() => {
+                format!("the built-in {}", project.volume.built_in.name())
+            }
+            Self::Session(project) => names(&project.volume.path),
             Self::Lacking(open, _) => names(&open.sources),
             Self::Partner(_, path) => path.display().to_string(),
         }
@@ -94,9 +103,8 @@ impl Request {
 }
 
 /// Does what is asked, and says what came of it.
-pub(super) fn load(request: Request, watch: &Watch) -> Outcome {
-    let limits = Limits::default();
-    let open = |paths, wanted| volume::open_wanted(paths, wanted, &limits, watch);
+pub(super) fn load(request: Request, limits: &Limits, watch: &Watch) -> Outcome {
+    let open = |paths, wanted| volume::open_wanted(paths, wanted, limits, watch);
     let outcome = match &request {
         Request::BuiltIn(flame) => flame
             .volume_watched(watch)
@@ -108,6 +116,13 @@ pub(super) fn load(request: Request, watch: &Watch) -> Outcome {
             .volume_watched(watch)
             .map(|v| Outcome::Burning(v.into(), preset)),
         Request::Project(paths, wanted) => open(paths, wanted).map(|v| Outcome::Shown(v.into())),
+        Request::Session(project) => {
+            let volume = match project.volume.path.as_slice() {
+                [] => project.volume.built_in.volume_watched(watch),
+                paths => open(paths, &project.wanted()),
+            };
+            volume.map(|v| Outcome::Restored(v.into(), Arc::clone(project)))
+        }
         Request::Files(paths, wanted) => open(paths, wanted).map(|v| Outcome::Replaced(v.into())),
         Request::Lacking(before, wanted) => {
             open(&before.sources, wanted).map(|v| Outcome::Filled {
@@ -115,7 +130,7 @@ pub(super) fn load(request: Request, watch: &Watch) -> Outcome {
                 volume: v.into(),
             })
         }
-        Request::Partner(open, path) => open_partner(open, path, &limits, watch),
+        Request::Partner(open, path) => open_partner(open, path, limits, watch),
     };
     let outcome = outcome.unwrap_or_else(|error| Outcome::Failed {
         request,

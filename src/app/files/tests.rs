@@ -7,7 +7,7 @@
 
 use super::request::{TOGETHER, open_partner};
 use super::*;
-use crate::volume::{self, BuiltIn, Limits, VolumeError, Wanted};
+use crate::volume::{self, BuiltIn, VolumeError, Wanted};
 
 #[test]
 fn a_path_may_be_quoted_or_an_address() {
@@ -96,12 +96,12 @@ fn every_kind_of_request_stops_when_told() {
     ] {
         let name = request.words();
         assert!(!matches!(
-            load(request.clone(), &Watch::default()),
+            load(request.clone(), &Limits::default(), &Watch::default()),
             Outcome::Failed { .. }
         ));
         let watch = Watch::default();
         watch.cancel();
-        let Outcome::Failed { words, .. } = load(request, &watch) else {
+        let Outcome::Failed { words, .. } = load(request, &Limits::default(), &watch) else {
             panic!("{name} was loaded");
         };
         assert_eq!(words, VolumeError::Cancelled.to_string(), "{name}");

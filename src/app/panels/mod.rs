@@ -66,6 +66,10 @@ pub(super) enum Command {
     Adopt(Numbers),
     /// Take the notice away.
     Dismiss,
+    /// Open and set what was in a window that did not end by itself.
+    Restore,
+    /// Take away what is kept of that window.
+    ForgetSession,
     /// Show the window that asks for an export.
     OpenExport,
     /// Export this.

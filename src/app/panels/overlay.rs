@@ -63,23 +63,30 @@ fn ask_before_closing(ui: &Ui, commands: &mut Vec<Command>) {
 /// Something to tell over the picture, and what can be done about it.
 struct Note {
     words: String,
-    remedy: Option<(String, Command)>,
+    remedies: Vec<(String, Command)>,
 }
 
 impl Note {
     fn plain(words: &str) -> Self {
         Self {
             words: words.to_owned(),
-            remedy: None,
+            remedies: Vec::new(),
         }
     }
 }
 
 fn all_notes(app: &App) -> Vec<Note> {
     let mut notes = Vec::new();
+    notes.extend(app.autosave.offer().map(|words| Note {
+        words,
+        remedies: vec![
+            ("Restore what was open".to_owned(), Command::Restore),
+            ("Forget it".to_owned(), Command::ForgetSession),
+        ],
+    }));
     notes.extend(app.notice().map(|words| Note {
         words: words.to_owned(),
-        remedy: Some(("Dismiss".to_owned(), Command::Dismiss)),
+        remedies: vec![("Dismiss".to_owned(), Command::Dismiss)],
     }));
     notes.extend(app.document.problem().map(Note::plain));
     notes.extend(app.picture.progress.failure.as_deref().map(Note::plain));
@@ -88,18 +95,18 @@ fn all_notes(app: &App) -> Vec<Note> {
     if job.is_some_and(|job| app.meter.is_black(job)) {
         notes.extend(app.job().map(|job| {
             let darkness = Darkness::of(job);
-            let remedy = darkness
-                .mend
-                .map(|mend| (mend.label(), Command::Mend(mend)));
+            let remedies = darkness.mend.into_iter();
             Note {
                 words: darkness.words,
-                remedy,
+                remedies: remedies
+                    .map(|mend| (mend.label(), Command::Mend(mend)))
+                    .collect(),
             }
         }));
     } else if app.shows_newest() && app.meter.is_underexposed(&app.view()) {
         notes.push(Note {
             words: "the picture is black at this exposure".to_owned(),
-            remedy: Some(("Expose it automatically".to_owned(), Command::AutoExposure)),
+            remedies: vec![("Expose it automatically".to_owned(), Command::AutoExposure)],
         });
     }
     notes
@@ -120,11 +127,13 @@ fn notes(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
                     .stroke(Stroke::new(1.0, ERROR))
                     .show(ui, |ui| {
                         ui.label(RichText::new(note.words).color(Color32::from_gray(225)));
-                        if let Some((label, command)) = note.remedy
-                            && ui.button(label).clicked()
-                        {
-                            commands.push(command);
-                        }
+                        ui.horizontal_wrapped(|ui| {
+                            for (label, command) in note.remedies {
+                                if ui.button(label).clicked() {
+                                    commands.push(command);
+                                }
+                            }
+                        });
                     });
             }
         });

@@ -128,6 +128,16 @@ pub(super) const LUMINANCE: Unit = Unit {
     example: "20000 cd/m²",
 };
 
+/// Memory, held in 10⁶ bytes.
+pub(super) const MEGABYTES: Unit = Unit {
+    name: "MB",
+    one: None,
+    shown: 1.0,
+    decimals: 0,
+    also: &[("gb", |n| 1e3 * n), ("tb", |n| 1e6 * n)],
+    example: "8000 MB or 8 GB",
+};
+
 /// Pressures, held in Pa.
 pub(super) const HECTOPASCAL: Unit = Unit {
     name: "hPa",

@@ -6,10 +6,12 @@ use super::knob::{Choice, Knob};
 use super::quality::capitalised;
 use super::{section, unit};
 use crate::project::{Control, Job, Project, Up, ranges, why_idle};
-use crate::volume::{FieldKind, Producer, Recognised, UpAxis};
+use crate::volume::{FieldKind, Limits, Producer, Recognised, UpAxis};
 
 /// Edges of voxels that the slider spans, m.
 const VOXELS_M: [f64; 2] = [1e-4, 1.0];
+/// Memory that the slider spans, MB.
+const MEMORY_MB: [f64; 2] = [256.0, 65_536.0];
 
 /// Draws the section.
 pub(super) fn show(
@@ -61,7 +63,29 @@ pub(super) fn show(
         for kind in FieldKind::ALL {
             field(ui, project, job, kind);
         }
+        memory(ui, project);
     });
+}
+
+/// What a file may cost.
+fn memory(ui: &mut Ui, project: &mut Project) {
+    let default = Limits::default().memory_mb().round();
+    let mut limit = project.volume.memory_limit_mb.unwrap_or(default);
+    let changed = Knob {
+        label: "Memory limit",
+        unit: unit::MEGABYTES,
+        slider: MEMORY_MB,
+        range: ranges::MEMORY_LIMIT_MB,
+        logarithmic: true,
+        default,
+        tip: "Memory for a file, for its grids and for what is packed of them, each. A file that needs more is refused \
+              before it is read; what is open stays. It holds from the next file on that is opened.",
+        idle: None,
+    }
+    .show(ui, &mut limit);
+    if changed {
+        project.volume.memory_limit_mb = (limit != default).then_some(limit);
+    }
 }
 
 fn producer(ui: &mut Ui, project: &mut Project, recognised: &Recognised) {

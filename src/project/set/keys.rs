@@ -54,6 +54,11 @@ pub const KEYS: &[Key] = &[
         "edge of a voxel; the file's own if not set",
     ),
     key(
+        "volume.memory_limit_mb",
+        "a number of MB (10⁶ bytes), 16 to 1000000",
+        "memory for a file, for its grids and for what is packed of them, each; 4295 if not set",
+    ),
+    key(
         "volume.soot.grid",
         GRID,
         "glowing soot, mapped to a volume fraction",
