@@ -45,6 +45,7 @@ const ENDS: &[(&str, [&str; 2])] = &[
     ("stage.ground", ["false", "true"]),
     ("camera.fov_deg", ["0.01", "179"]),
     ("render.step_voxels", ["0.01", "64"]),
+    ("render.target_error", ["0.01", "100"]),
     ("render.wavelengths", ["4", "64"]),
     ("render.interpolation", ["nearest", "tricubic"]),
     ("view.exposure_ev", ["-20", "20"]),

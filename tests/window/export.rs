@@ -9,6 +9,7 @@ use sootlight::export::{Format, Still};
 use sootlight::render::Cancel;
 use sootlight::render::develop::{Metering, develop};
 use sootlight::scene::WavelengthSet;
+use sootlight::study;
 
 use super::*;
 
@@ -226,11 +227,22 @@ fn final_quality_tells_in_its_file_how_it_is_made() {
     // As the command line makes it: measured on the still itself.
     let app = harness.state();
     let volume = Arc::clone(app.document().volume().expect("a volume"));
-    let still = Still::new(&scene, &volume, None).expect("it was rendered before");
+    let mut still = Still::new(&scene, &volume, None).expect("it was rendered before");
     let again = folder.path().join("again.png");
     let never = Cancel::never();
+    let packed = still.scene();
+    let (settings, wished) = (still.job.settings, still.job.accuracy);
+    let aim = study::aim(
+        &packed,
+        still.plan(&packed),
+        &settings,
+        wished,
+        None,
+        &never,
+    );
+    still.job.settings = aim.settings;
     let frame = still
-        .render(&still.scene(), &never, &|_| {})
+        .render_planned(&packed, &aim.plan, &never, &|_| {})
         .expect("nobody cancels");
     let written = still
         .write(&frame, Format::Png(Bits::Eight), &again, &never)

@@ -1,7 +1,7 @@
 //! What accuracy costs in the scene on show: seconds along the bottom, error up the side, both in equal factors. The pale line
 //! is what is expected of the best choices, dots are what was measured, the ring is the picture on show. A click adopts a dot.
 
-use egui::{Color32, RichText, Role, Ui, WidgetInfo};
+use egui::{Color32, RichText, Role, Sense, Ui, Vec2, WidgetInfo};
 use egui_plot::{
     GridMark, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, Points,
 };
@@ -170,7 +170,9 @@ fn progress_words(known: usize, of: usize) -> String {
 fn legend(ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         for family in Family::ALL {
-            ui.label(RichText::new("●").color(colour(Some(family))));
+            let (rect, _) = ui.allocate_exact_size(Vec2::splat(10.0), Sense::hover());
+            ui.painter()
+                .circle_filled(rect.center(), 4.0, colour(Some(family)));
             ui.label(RichText::new(family.title()).small());
         }
     });
