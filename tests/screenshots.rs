@@ -207,7 +207,7 @@ fn of_what_accuracy_costs() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let status = Command::new(PROGRAM)
             .current_dir(&data)
-            .args(["study", file, "--size", "640x360", "-o"])
+            .args(["study", file, "--size", "480x270", "-o"])
             .arg(folder.path())
             .status()
             .unwrap();

@@ -14,8 +14,8 @@ use super::variant::Family;
 
 /// Width and height of the chart in pixels.
 const SIZE: (u32, u32) = (1280, 860);
-/// A name that no font of the system has: pictures are the same everywhere.
-const FONT: &str = "sootlight";
+/// What scalable graphics ask their reader for; for pixels it is our own font, the same everywhere.
+const FONT: &str = "sans-serif";
 /// A difference that is just seen.
 const SEEN_DE: f64 = 1.0;
 

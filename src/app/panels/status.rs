@@ -126,7 +126,7 @@ fn rendering(ui: &mut Ui, app: &App) {
 }
 
 /// Width of the words on accuracy in points.
-const ACCURACY_WIDTH: f32 = 348.0;
+const ACCURACY_WIDTH: f32 = 384.0;
 
 /// The picture's error, its time, and what the next better one would take.
 fn accuracy_words(told: Option<&Told>, progress: &Progress) -> String {
@@ -146,7 +146,7 @@ fn accuracy_words(told: Option<&Told>, progress: &Progress) -> String {
             format!(
                 "next {} ΔE in {}",
                 short_de(next.error.all.de95),
-                seconds(next.cpu_s / threads)
+                seconds(took + (next.cpu_s - told.here.cpu_s) / threads)
             )
         },
     );
@@ -265,6 +265,8 @@ fn counted(number: f64) -> String {
 mod tests {
     use super::*;
     use crate::render::Pass;
+    use crate::scene::WavelengthSet;
+    use crate::study::{Choice, Error, Numbers, Split};
 
     fn ladder(done: usize, rays_in_pass: u64) -> Progress {
         let passes = [(8, 2.0), (4, 2.0), (2, 2.0), (1, 1.0)]
@@ -303,5 +305,48 @@ mod tests {
         progress.finished = true;
         assert_eq!(time_left(&progress, 2.0), "done");
         assert_eq!(time_left(&ladder(0, 0), 0.1), "… s left");
+    }
+
+    #[test]
+    fn the_error_is_told_with_its_time_and_the_next_better_one() {
+        let choice = |de95: f64, cpu_s: f64| Choice {
+            numbers: Numbers {
+                step_voxels: 1.0,
+                wavelengths: WavelengthSet::Fitted(6),
+                samples_per_pixel: 1,
+            },
+            error: Split {
+                all: Error {
+                    de95,
+                    ..Error::default()
+                },
+                ..Split::default()
+            },
+            cpu_s,
+            work: 1.0,
+        };
+        let threads = Engine::threads_beside_a_window() as f64;
+        let mut told = Told {
+            here: choice(0.43, 0.8 * threads),
+            next: Some(choice(0.112, 3.0 * threads)),
+        };
+        let running = Progress::default();
+        assert_eq!(
+            accuracy_words(Some(&told), &running),
+            "error 0.43 ΔE (95 %), predicted · 0.8 s · next 0.11 ΔE in 3.0 s"
+        );
+        // Once it is there, its own time counts, with all that is not the march.
+        let done = Progress {
+            finished: true,
+            elapsed: Duration::from_secs(2),
+            ..Progress::default()
+        };
+        assert_eq!(
+            accuracy_words(Some(&told), &done),
+            "error 0.43 ΔE (95 %), predicted · 2.0 s · next 0.11 ΔE in 4.2 s"
+        );
+        told.next = None;
+        assert!(accuracy_words(Some(&told), &done).ends_with("nothing finer"));
+        assert_eq!(accuracy_words(None, &done), "error … ΔE (95 %)");
     }
 }
