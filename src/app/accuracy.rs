@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
 use crate::engine::Packed;
-use crate::project::Job;
+use crate::project::{self, Job};
 use crate::render::Cancel;
 use crate::scene::WavelengthSet;
 use crate::study::{self, Choice, Numbers, Pilot, Point};
@@ -22,7 +22,7 @@ pub(super) struct Accuracy {
     /// Whether numbers are chosen at all.
     chooses: bool,
     known: Option<Known>,
-    looking: Option<Running<Option<Arc<Pilot>>>>,
+    looking: Option<(Wished, Running<Option<Arc<Pilot>>>)>,
     measured: Option<Measured>,
     measuring: Option<Running<(Point, usize)>>,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -31,6 +31,8 @@ pub(super) struct Accuracy {
 /// A scene that was looked at.
 struct Known {
     view: Job,
+    /// What it was looked at for.
+    wished: Wished,
     /// `None` where nothing is to be seen.
     pilot: Option<Arc<Pilot>>,
 }
@@ -41,6 +43,23 @@ struct Measured {
     points: Vec<Point>,
     /// How many there will be, once that is known.
     of: usize,
+}
+
+/// What decides how a scene is looked at: the wish, and a step that was set by hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Wished {
+    accuracy: project::Accuracy,
+    step_voxels: Option<f64>,
+}
+
+impl Wished {
+    fn of(job: &Job) -> Self {
+        let accuracy = job.accuracy;
+        Self {
+            accuracy,
+            step_voxels: (!accuracy.step).then_some(job.settings.step_voxels),
+        }
+    }
 }
 
 /// Work on a thread of its own.
@@ -94,14 +113,21 @@ impl Accuracy {
     }
 
     fn is_known(&self, job: &Job) -> bool {
-        let known = self.known.as_ref();
-        known.is_some_and(|known| known.view == view_of(job))
+        self.known_of(job).is_some()
+    }
+
+    /// What was found out for a job's wish. A look shows what numbers that were all set by hand are worth, whatever it was for.
+    fn known_of(&self, job: &Job) -> Option<&Known> {
+        let serves = |known: &&Known| {
+            let is_for_it = known.wished == Wished::of(job) || !job.accuracy.is_open();
+            is_for_it && known.view == view_of(job)
+        };
+        self.known.as_ref().filter(serves)
     }
 
     /// What was found out about the scene of a job.
     pub(super) fn pilot(&self, job: &Job) -> Option<&Arc<Pilot>> {
-        let known = self.known.as_ref()?;
-        known.pilot.as_ref().filter(|_| known.view == view_of(job))
+        self.known_of(job)?.pilot.as_ref()
     }
 
     /// What is to be said of a job's picture, in which so many wavelengths are carried if that is known.
@@ -138,14 +164,25 @@ impl Accuracy {
     pub(super) fn follow(&mut self, job: &Job, packed: Option<Packed>, is_fine: bool) {
         self.receive();
         let view = view_of(job);
-        let is_late = |running: &Running<Option<Arc<Pilot>>>| running.view != view;
+        let wanted_for = Wished::of(job);
+        let is_late = |(wished, running): &(Wished, Running<Option<Arc<Pilot>>>)| {
+            running.view != view || *wished != wanted_for
+        };
         if self.looking.as_ref().is_some_and(is_late) {
             self.looking = None;
         }
+        if self.measured.as_ref().is_some_and(|it| it.view != view) {
+            self.measuring = None;
+            self.measured = None;
+        }
         let wanted = self.chooses && is_fine && self.looking.is_none() && !self.is_known(job);
+        if wanted && packed.is_none() {
+            // The engine was publishing at this very moment: ask again.
+            (self.wake)();
+        }
         if let (true, Some(packed)) = (wanted, packed) {
             let wished = job.accuracy;
-            self.looking = self.run("look", view, move |cancel, sender, wake| {
+            let running = self.run("look", view, move |cancel, sender, wake| {
                 let Packed {
                     scene,
                     plan,
@@ -158,15 +195,14 @@ impl Accuracy {
                     wake();
                 }
             });
+            self.looking = running.map(|running| (wanted_for, running));
         }
     }
 
-    /// Goes on measuring every variant of a job's scene, as long as somebody looks at the chart.
+    /// Begins to measure every variant of a job's scene, for somebody who looks at the chart. It goes on while the scene is on
+    /// show, whether or not the chart is.
     pub(super) fn measure(&mut self, job: &Job, is_idle: bool) {
         let view = view_of(job);
-        if self.measured.as_ref().is_some_and(|it| it.view != view) {
-            self.stop_measuring();
-        }
         if self.measured.is_some() || !is_idle || self.pilot(job).is_none() {
             return;
         }
@@ -184,12 +220,6 @@ impl Accuracy {
         });
     }
 
-    /// Stops measuring and forgets what was measured.
-    pub(super) fn stop_measuring(&mut self) {
-        self.measuring = None;
-        self.measured = None;
-    }
-
     /// What has been measured of a job's scene so far, and how much there will be.
     pub(super) fn points(&self, job: &Job) -> (&[Point], usize) {
         let view = view_of(job);
@@ -198,7 +228,7 @@ impl Accuracy {
     }
 
     fn receive(&mut self) {
-        if let Some(looking) = &self.looking {
+        if let Some((wished, looking)) = &self.looking {
             let found = match looking.news.try_recv() {
                 Ok(pilot) => Some(pilot),
                 Err(TryRecvError::Empty) => None,
@@ -207,7 +237,11 @@ impl Accuracy {
             };
             if let Some(pilot) = found {
                 let view = looking.view.clone();
-                self.known = Some(Known { view, pilot });
+                self.known = Some(Known {
+                    view,
+                    wished: *wished,
+                    pilot,
+                });
                 self.looking = None;
             }
         }

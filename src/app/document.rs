@@ -40,6 +40,8 @@ pub struct Document {
     pub costs: Vec<Cost>,
     /// What was found out about it.
     pub facts: Facts,
+    /// How many wavelengths are carried in it, which may be more than were asked for; `None` while that is not known.
+    pub carried: Option<u32>,
     open: Option<Arc<OpenVolume>>,
     history: History<Step>,
     /// Numbers that were chosen for a wish, in place of those for a scene that nobody has looked at.
@@ -92,6 +94,7 @@ impl Document {
             decisions: Vec::new(),
             costs: Vec::new(),
             facts: Facts::default(),
+            carried: None,
             open: None,
             history: History::default(),
             chosen: None,

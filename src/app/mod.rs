@@ -295,6 +295,7 @@ impl eframe::App for App {
         let before = self.document.project.clone();
         let carried = self.engine.scene();
         let carried = carried.map(|packed| packed.plan.wavelengths());
+        self.document.carried = carried;
         let job = self.document.last_job();
         self.told = job.and_then(|job| self.accuracy.told(job, carried));
         panels::status(ui, self, &mut commands);
@@ -326,8 +327,6 @@ impl eframe::App for App {
         {
             let is_idle = self.picture.progress.finished;
             self.accuracy.measure(job, is_idle);
-        } else {
-            self.accuracy.stop_measuring();
         }
         let about = plots::Shown {
             job,

@@ -102,7 +102,8 @@ impl App {
         let is_newest = self.document.last_job() == Some(&submitted.job) && self.renders_newest();
         let mut whole = self.picture.progress.passes.iter();
         let mut whole = whole.by_ref().take(self.picture.progress.done);
-        let is_fine = is_newest && whole.any(|pass| pass.stride == 1);
+        let failed = self.picture.progress.failure.is_some();
+        let is_fine = is_newest && !failed && whole.any(|pass| pass.stride == 1);
         let packed = if is_fine { self.engine.scene() } else { None };
         self.accuracy.follow(&submitted.job, packed, is_fine);
     }

@@ -40,8 +40,9 @@ struct Known {
 }
 
 impl Accuracy {
-    pub(super) fn of(aim: &Aim, wished: project::Accuracy, frame: &Frame) -> Self {
-        let numbers = Numbers::of(&aim.settings);
+    /// `has_limit`: whether the picture had to be done in time.
+    pub(super) fn of(aim: &Aim, wished: project::Accuracy, frame: &Frame, has_limit: bool) -> Self {
+        let numbers = aim.carried();
         let known = aim.pilot.as_ref().map(|pilot| {
             let [cpu_s, wall_s] = pilot.seconds(numbers);
             Known {
@@ -57,10 +58,11 @@ impl Accuracy {
             .as_ref()
             .is_some_and(|known| known.expected.all.de95 <= wished.target_de);
         let stopped_by = match (&aim.pilot, is_good && frame.finished) {
-            (None, _) if frame.finished => StoppedBy::Settings,
+            (None, _) if frame.finished && !(has_limit && wished.is_open()) => StoppedBy::Settings,
             (Some(_), true) => StoppedBy::Target,
             (Some(pilot), false) if frame.finished => {
-                if pilot.choose(wished, numbers) == numbers {
+                let chosen = Numbers::of(&aim.settings);
+                if !has_limit || pilot.choose(wished, chosen) == chosen {
                     StoppedBy::Finest
                 } else {
                     StoppedBy::TimeLimit

@@ -69,7 +69,7 @@ impl Render {
             let stats = Stats {
                 seconds,
                 render_cpu_s: took.cpu_s,
-                accuracy: Accuracy::of(&aim, still.job.accuracy, &frame),
+                accuracy: Accuracy::of(&aim, still.job.accuracy, &frame, end.is_some()),
                 threads,
                 project: &self.project,
                 job: &still.job,

@@ -26,7 +26,7 @@ impl Study {
         let files = ["csv", "json", "png", "svg"]
             .map(|ending| self.folder.join(format!("accuracy.{ending}")));
         for file in &files {
-            export::check_writable(file)
+            export::check_target(file, &self.project.sources())
                 .map_err(|error| CliError::failed("nothing was measured", error))?;
         }
         let pool = rayon::ThreadPoolBuilder::new()

@@ -317,8 +317,9 @@ impl Look {
     /// Whether there is light in a packet's block or beside it.
     fn is_lit(&self, corner: [u32; 2]) -> bool {
         let block = corner.map(|side| side / self.stride);
+        let last = corner.map(|side| (side + PACKET_SIDE - 1) / self.stride);
         let around = |axis: usize| {
-            block[axis].saturating_sub(1)..=(block[axis] + 1).min(self.across[axis] - 1)
+            block[axis].saturating_sub(1)..=(last[axis] + 1).min(self.across[axis] - 1)
         };
         let lit =
             |x: u32, y: u32| self.light[(y * self.across[0] + x) as usize] > LIT as f32 * self.peak;

@@ -19,6 +19,21 @@ pub struct Aim {
     pub pilot: Option<Pilot>,
 }
 
+impl Aim {
+    /// The numbers as the plan carries them: where what falls on a stage or is scattered calls for it, it takes more
+    /// wavelengths than the settings say.
+    pub fn carried(&self) -> Numbers {
+        let numbers = Numbers::of(&self.settings);
+        let carried = WavelengthSet::ALL
+            .into_iter()
+            .find(|set| set.count() == self.plan.wavelengths());
+        Numbers {
+            wavelengths: carried.unwrap_or(numbers.wavelengths),
+            ..numbers
+        }
+    }
+}
+
 /// Share of the time that is left for which a march is chosen: what it takes is known within a quarter.
 const CAUTION: f64 = 0.75;
 
@@ -63,14 +78,6 @@ pub fn aim(
     for other in [Some(&plan), tried.as_ref()].into_iter().flatten() {
         chosen.take_over(other);
     }
-    // The plan may carry more, where what falls on a stage or is scattered calls for it.
-    let carried = WavelengthSet::ALL
-        .into_iter()
-        .find(|set| set.count() == chosen.wavelengths());
-    let settings = Settings {
-        wavelengths: carried.unwrap_or(settings.wavelengths),
-        ..settings
-    };
     Aim {
         settings,
         plan: chosen,

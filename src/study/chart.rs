@@ -79,7 +79,8 @@ impl Chart<'_> {
             .map(|it| format!("{}: {}", it.variant.in_words(), it.status.reason()))
             .collect();
         let below = 26 * (1 + failed.len() as u32);
-        let (above, caption) = area.split_vertically(SIZE.1 - below - 10);
+        let (above, caption) =
+            area.split_vertically(SIZE.1.saturating_sub(below + 10).max(SIZE.1 / 2));
         let placed = self
             .report
             .points

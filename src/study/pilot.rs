@@ -149,9 +149,18 @@ impl Pilot {
                 0.0
             };
         let looked = steps.iter().find(|it| it.what == LOOK_STEP_VOXELS)?;
-        let more_samples = part.looked_samples()? / looked.samples;
+        // Where only what is behind the fire is seen, no sample is taken.
+        let more_samples = if looked.samples > 0.0 {
+            part.looked_samples()? / looked.samples
+        } else {
+            1.0
+        };
         let (first, last) = (steps.first()?, steps.last()?);
-        let cpu_s_of_sample = (last.cpu_s - first.cpu_s) / (last.samples - first.samples);
+        let cpu_s_of_sample = if last.samples > first.samples {
+            (last.cpu_s - first.cpu_s) / (last.samples - first.samples)
+        } else {
+            0.0
+        };
         let mut pilot = Self {
             table: Vec::new(),
             more_samples,
@@ -212,7 +221,7 @@ impl Pilot {
     pub fn seconds(&self, numbers: Numbers) -> [f64; 2] {
         let (step, set, _) = self.tried(numbers);
         let here = self.sets.iter().find(|it| it.what == self.set);
-        let of_set = here.map_or(0.0, |here| (set.cpu_s - here.cpu_s) / set.samples);
+        let of_set = here.map_or(0.0, |here| (set.cpu_s - here.cpu_s) / set.samples.max(1.0));
         let more = self.cpu_s_of_sample * (self.more_samples - 1.0) * step.samples;
         let more = more + of_set * self.more_samples * step.samples;
         let cpu_s = f64::from(numbers.samples_per_pixel) * (step.cpu_s + more).max(0.0);
@@ -365,7 +374,11 @@ fn own_error(
         };
         sight.error(&last.xyz, &before.xyz).scaled(share)
     }
-    last(sight, steps, 1.0 / 3.0)
+    let share = match steps {
+        [.., before, last] => 1.0 / ((before.what / last.what).powi(2) - 1.0),
+        _ => 0.0,
+    };
+    last(sight, steps, share)
         .beside(last(sight, sets, 1.0 / 3.0))
         .beside(last(sight, rays, 1.0 / 3.0))
 }

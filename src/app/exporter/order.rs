@@ -8,6 +8,7 @@ use crate::export::Format;
 use crate::project::{CameraSettings, Project, Quality};
 use crate::render::Effects;
 use crate::render::develop::Metering;
+use crate::scene::WavelengthSet;
 use crate::volume::Volume;
 
 /// How exactly an export is rendered.
@@ -84,7 +85,10 @@ impl Wish {
             let seen = document.last_job()?.settings;
             let render = &mut project.render;
             render.step_voxels = Some(seen.step_voxels);
-            render.wavelengths = Some(seen.wavelengths);
+            let carried = WavelengthSet::ALL
+                .into_iter()
+                .find(|set| Some(set.count()) == document.carried);
+            render.wavelengths = Some(carried.unwrap_or(seen.wavelengths));
             render.samples_per_pixel = Some(seen.samples_per_pixel);
         }
         project.camera = CameraSettings::from(&camera);

@@ -11,7 +11,7 @@ use crate::app::theme::IDLE;
 use crate::project::{Project, Quality, RenderSettings, ranges};
 use crate::render::{Effects, Switch};
 use crate::scene::{Interpolation, WavelengthSet};
-use crate::study::{RAYS, STEPS};
+use crate::study::{Numbers, RAYS, STEPS};
 
 /// Orders of scattering that are offered.
 const ORDERS: [u32; 5] = [1, 2, 4, 16, 64];
@@ -106,6 +106,8 @@ fn wished(ui: &mut Ui, render: &mut RenderSettings) {
         let name = capitalised(quality.name());
         let words = if by_hand && quality == render.quality {
             format!("{name} · changed")
+        } else if let (Some(target), true) = (render.target_error, quality == render.quality) {
+            format!("{} ΔE, set by hand", short(target))
         } else {
             format!("{name} · {} ΔE", short(quality.target_de()))
         };
@@ -165,7 +167,13 @@ fn by_cause(
             "Take the next shorter step, and leave all else.",
             finer.is_some(),
         ) {
-            render.step_voxels = finer;
+            pin(
+                render,
+                Numbers {
+                    step_voxels: finer.unwrap_or(numbers.step_voxels),
+                    ..numbers
+                },
+            );
         }
         let more = WavelengthSet::ALL.into_iter();
         let more = more
@@ -178,7 +186,13 @@ fn by_cause(
             "Take more wavelengths, and leave all else.",
             more.is_some(),
         ) {
-            render.wavelengths = more;
+            pin(
+                render,
+                Numbers {
+                    wavelengths: more.unwrap_or(numbers.wavelengths),
+                    ..numbers
+                },
+            );
         }
         let rays = RAYS
             .into_iter()
@@ -190,7 +204,13 @@ fn by_cause(
             "Take more rays for each pixel, and leave all else.",
             rays.is_some(),
         ) {
-            render.samples_per_pixel = rays;
+            pin(
+                render,
+                Numbers {
+                    samples_per_pixel: rays.unwrap_or(numbers.samples_per_pixel),
+                    ..numbers
+                },
+            );
         }
         let out = known
             .decisions
@@ -213,6 +233,13 @@ fn by_cause(
             *switch = Switch::On;
         }
     });
+}
+
+/// Sets all three numbers by hand.
+fn pin(render: &mut RenderSettings, numbers: Numbers) {
+    render.step_voxels = Some(numbers.step_voxels);
+    render.wavelengths = Some(numbers.wavelengths);
+    render.samples_per_pixel = Some(numbers.samples_per_pixel);
 }
 
 /// An error in two figures.
