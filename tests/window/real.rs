@@ -124,8 +124,10 @@ fn a_dropped_fire_is_changed_by_a_slider_and_exported() {
     // Each step gets a frame of its own: a hand is slower than this.
     let hands = format!(
         r#"
-        step() {{ xdotool "$@"; sleep 0.2; }}
+        step() {{ xdotool "$@"; sleep 0.6; }}
         xdotool search --name Sootlight windowfocus
+        # What was opened is rendered and looked at first: a busy machine without a graphics card draws few frames then.
+        sleep 4
         step mousemove {x} {y}
         step mousedown 1
         step mousemove $(({x} + 15)) {y}
