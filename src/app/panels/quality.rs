@@ -25,73 +25,10 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, known: Known<'_>, told: O
             by_cause(ui, render, &mut project.effects, known, told);
         }
         // What is not set by hand is as chosen, or as for a scene that nobody has looked at yet.
-        let (step_default, wavelengths_default, rays_default) =
-            known.job.map_or(render.quality.numbers(), |job| {
-                let settings = &job.settings;
-                (
-                    settings.step_voxels,
-                    settings.wavelengths,
-                    settings.samples_per_pixel,
-                )
-            });
-        let mut step = render.step_voxels.unwrap_or(step_default);
-        let changed = Knob {
-            label: "Step size",
-            unit: unit::VOXELS,
-            slider: [0.25, 8.0],
-            range: ranges::STEP_VOXELS,
-            logarithmic: true,
-            default: step_default,
-            tip: "How far apart the fire is sampled along a line of sight at most: closer where its light changes from \
-                  voxel to voxel. Longer steps are faster, but step over thin sheets of flame: they become blurred and \
-                  too dim or too bright.",
-            idle: None,
-        }
-        .show(ui, &mut step);
-        if changed {
-            render.step_voxels = Some(step);
-        }
-        by_hand(ui, &mut render.step_voxels);
-
-        let options = WavelengthSet::ALL.map(|set| {
-            let (kind, tip) = match set {
-                WavelengthSet::Fitted(_) => ("fitted", "Chosen and weighted for this fire's soot."),
-                WavelengthSet::Plain(_) => ("plain", "Evenly over the spectrum: for comparison."),
-            };
-            (set, format!("{} {kind}", set.count()), tip)
-        });
-        let mut wavelengths = render.wavelengths.unwrap_or(wavelengths_default);
-        let changed = Choice {
-            label: "Wavelengths",
-            options: &options,
-            tip: "At how many wavelengths light is carried through the fire. Six fitted ones are within 0.1 % of all.",
-            default: wavelengths_default,
-            idle: None,
-        }
-        .show(ui, &mut wavelengths);
-        if changed {
-            render.wavelengths = Some(wavelengths);
-        }
-        by_hand(ui, &mut render.wavelengths);
-
-        let mut rays = render.samples_per_pixel.unwrap_or(rays_default);
-        let mut options: Vec<(u32, String, &str)> =
-            RAYS.map(|rays| (rays, rays.to_string(), "")).to_vec();
-        if !RAYS.contains(&rays) {
-            options.push((rays, rays.to_string(), ""));
-        }
-        let changed = Choice {
-            label: "Rays a pixel",
-            options: &options,
-            tip: "More rays smooth the edges; each costs as much time as the first.",
-            default: rays_default,
-            idle: None,
-        }
-        .show(ui, &mut rays);
-        if changed {
-            render.samples_per_pixel = Some(rays);
-        }
-        by_hand(ui, &mut render.samples_per_pixel);
+        let here = known.job.map(|job| Numbers::of(&job.settings));
+        step(ui, render, here);
+        wavelengths(ui, render, here);
+        rays(ui, render, here);
         between_voxels(ui, &mut render.interpolation);
         orders(ui, &mut render.scattering_orders);
     });
@@ -133,15 +70,72 @@ fn wished(ui: &mut Ui, render: &mut RenderSettings) {
     }
 }
 
-/// Lets a number that was set by hand be chosen again.
-fn by_hand<T>(ui: &mut Ui, number: &mut Option<T>) {
-    if number.is_some() {
-        let button = ui.small_button("set by hand: let it be chosen");
-        let tip = "Give the number up, so that it follows the quality again.";
-        if button.on_hover_text(tip).clicked() {
-            *number = None;
-        }
+/// The step, or that it is chosen.
+fn step(ui: &mut Ui, render: &mut RenderSettings, here: Option<Numbers>) {
+    let (of_quality, ..) = render.quality.numbers();
+    Knob {
+        label: "Step size",
+        unit: unit::VOXELS,
+        slider: [0.125, 8.0],
+        range: ranges::STEP_VOXELS,
+        logarithmic: true,
+        default: here.map_or(of_quality, |here| here.step_voxels),
+        tip: "How far apart the fire is sampled along a line of sight at most: closer where its light changes from \
+              voxel to voxel. Longer steps are faster, but step over thin sheets of flame: they become blurred and \
+              too dim or too bright.",
+        idle: None,
     }
+    .show_optional(ui, &mut render.step_voxels, "chosen for the quality");
+}
+
+/// The wavelengths, or that they are chosen.
+fn wavelengths(ui: &mut Ui, render: &mut RenderSettings, here: Option<Numbers>) {
+    let words = |set: WavelengthSet| match set {
+        WavelengthSet::Fitted(count) => format!("{count} fitted"),
+        WavelengthSet::Plain(count) => format!("{count} plain"),
+    };
+    let tip = |set: WavelengthSet| match set {
+        WavelengthSet::Fitted(_) => "Chosen and weighted for this fire's soot.",
+        WavelengthSet::Plain(_) => "Evenly over the spectrum: for comparison.",
+    };
+    let mut options = vec![(
+        None,
+        chosen_words(here.map(|here| words(here.wavelengths))),
+        "",
+    )];
+    options.extend(WavelengthSet::ALL.map(|set| (Some(set), words(set), tip(set))));
+    Choice {
+        label: "Wavelengths",
+        options: &options,
+        tip: "At how many wavelengths light is carried through the fire. Six fitted ones are within 0.1 % of all.",
+        default: None,
+        idle: None,
+    }
+    .show(ui, &mut render.wavelengths);
+}
+
+/// The rays of each pixel, or that they are chosen.
+fn rays(ui: &mut Ui, render: &mut RenderSettings, here: Option<Numbers>) {
+    let here = here.map(|here| here.samples_per_pixel.to_string());
+    let mut options = vec![(None, chosen_words(here), "")];
+    options.extend(RAYS.map(|rays| (Some(rays), rays.to_string(), "")));
+    let set = render.samples_per_pixel;
+    if let Some(other) = set.filter(|rays| !RAYS.contains(rays)) {
+        options.push((set, other.to_string(), ""));
+    }
+    Choice {
+        label: "Rays a pixel",
+        options: &options,
+        tip: "More rays smooth the edges; each costs as much time as the first.",
+        default: None,
+        idle: None,
+    }
+    .show(ui, &mut render.samples_per_pixel);
+}
+
+/// That a number is chosen, and which it is if that is known.
+fn chosen_words(here: Option<String>) -> String {
+    here.map_or_else(|| "Chosen".to_owned(), |here| format!("Chosen · {here}"))
 }
 
 /// The picture's error by what it comes from; a click raises only that.
@@ -160,57 +154,54 @@ fn by_cause(
             button.on_hover_text(tip).clicked()
         };
         let finer = STEPS.into_iter().find(|step| *step < numbers.step_voxels);
-        let words = format!("step {}", short_de(error.step));
-        if cause(
-            ui,
-            words,
-            "Take the next shorter step, and leave all else.",
-            finer.is_some(),
-        ) {
-            pin(
-                render,
-                Numbers {
-                    step_voxels: finer.unwrap_or(numbers.step_voxels),
-                    ..numbers
-                },
-            );
-        }
-        let more = WavelengthSet::ALL.into_iter();
-        let more = more
-            .filter(|set| set.count() > numbers.wavelengths.count())
-            .find(|set| set.count() != 16);
-        let words = format!("wavelengths {}", short_de(error.wavelengths));
-        if cause(
-            ui,
-            words,
-            "Take more wavelengths, and leave all else.",
-            more.is_some(),
-        ) {
-            pin(
-                render,
-                Numbers {
-                    wavelengths: more.unwrap_or(numbers.wavelengths),
-                    ..numbers
-                },
-            );
-        }
+        let finer = finer.map(|step_voxels| Numbers {
+            step_voxels,
+            ..numbers
+        });
+        // Sixteen plain ones are no better than eight fitted ones.
+        let more = WavelengthSet::ALL.into_iter().find(|set| {
+            set.count() > numbers.wavelengths.count() && *set != WavelengthSet::Plain(16)
+        });
+        let more = more.map(|wavelengths| Numbers {
+            wavelengths,
+            ..numbers
+        });
         let rays = RAYS
             .into_iter()
             .find(|rays| *rays > numbers.samples_per_pixel);
-        let words = format!("edges {}", short_de(error.rays));
-        if cause(
-            ui,
-            words,
-            "Take more rays for each pixel, and leave all else.",
-            rays.is_some(),
-        ) {
-            pin(
-                render,
-                Numbers {
-                    samples_per_pixel: rays.unwrap_or(numbers.samples_per_pixel),
-                    ..numbers
-                },
+        let rays = rays.map(|samples_per_pixel| Numbers {
+            samples_per_pixel,
+            ..numbers
+        });
+        for (name, de, better, tip) in [
+            (
+                "step",
+                error.step,
+                finer,
+                "Take the next shorter step, and leave all else.",
+            ),
+            (
+                "wavelengths",
+                error.wavelengths,
+                more,
+                "Take more wavelengths, and leave all else.",
+            ),
+            (
+                "edges",
+                error.rays,
+                rays,
+                "Take more rays for each pixel, and leave all else.",
+            ),
+        ] {
+            let clicked = cause(
+                ui,
+                format!("{name} {}", short_de(de)),
+                tip,
+                better.is_some(),
             );
+            if let Some(better) = better.filter(|_| clicked) {
+                better.by_hand(render);
+            }
         }
         let out = known
             .decisions
@@ -233,13 +224,6 @@ fn by_cause(
             *switch = Switch::On;
         }
     });
-}
-
-/// Sets all three numbers by hand.
-fn pin(render: &mut RenderSettings, numbers: Numbers) {
-    render.step_voxels = Some(numbers.step_voxels);
-    render.wavelengths = Some(numbers.wavelengths);
-    render.samples_per_pixel = Some(numbers.samples_per_pixel);
 }
 
 /// An error in two figures.
