@@ -11,7 +11,6 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use crate::engine::Packed;
 use crate::project::{self, Job};
 use crate::render::Cancel;
-use crate::scene::WavelengthSet;
 use crate::study::{self, Choice, Numbers, Pilot, Point};
 
 /// Share of an error that the next better choice has at most.
@@ -133,14 +132,8 @@ impl Accuracy {
     /// What is to be said of a job's picture, in which so many wavelengths are carried if that is known.
     pub(super) fn told(&self, job: &Job, wavelengths: Option<u32>) -> Option<Told> {
         let pilot = self.pilot(job)?;
-        let set = WavelengthSet::ALL
-            .into_iter()
-            .find(|set| Some(set.count()) == wavelengths);
-        let numbers = Numbers::of(&job.settings);
-        let here = pilot.choice(Numbers {
-            wavelengths: set.unwrap_or(numbers.wavelengths),
-            ..numbers
-        });
+        let asked = Numbers::of(&job.settings);
+        let here = pilot.choice(wavelengths.map_or(asked, |count| asked.carrying(count)));
         let better = NEXT * here.error.all.de95;
         let table = pilot.table().iter();
         let good = table.filter(|it| it.error.all.de95 <= better && it.cpu_s > here.cpu_s);
@@ -149,6 +142,12 @@ impl Accuracy {
             here,
             next: next.copied(),
         })
+    }
+
+    /// Whether the scene of a job was looked at and nothing is to be seen in it.
+    pub(super) fn sees_nothing(&self, job: &Job) -> bool {
+        self.known_of(job)
+            .is_some_and(|known| known.pilot.is_none())
     }
 
     /// The numbers that a job's wish comes to, once that is known.
@@ -174,6 +173,11 @@ impl Accuracy {
         if self.measured.as_ref().is_some_and(|it| it.view != view) {
             self.measuring = None;
             self.measured = None;
+        }
+        // What is known of another volume is not worth its memory.
+        let is_of_it = |known: &Known| Arc::ptr_eq(&known.view.volume, &job.volume);
+        if !self.known.as_ref().is_some_and(is_of_it) {
+            self.known = None;
         }
         let wanted = self.chooses && is_fine && self.looking.is_none() && !self.is_known(job);
         if wanted && packed.is_none() {
@@ -201,11 +205,12 @@ impl Accuracy {
 
     /// Begins to measure every variant of a job's scene, for somebody who looks at the chart. It goes on while the scene is on
     /// show, whether or not the chart is.
-    pub(super) fn measure(&mut self, job: &Job, is_idle: bool) {
+    pub(super) fn measure(&mut self, job: &Job, packed: Option<Packed>) {
         let view = view_of(job);
-        if self.measured.is_some() || !is_idle || self.pilot(job).is_none() {
+        let Some(packed) = packed.filter(|_| self.measured.is_none() && self.pilot(job).is_some())
+        else {
             return;
-        }
+        };
         self.measured = Some(Measured {
             view: view.clone(),
             points: Vec::new(),
@@ -213,14 +218,14 @@ impl Accuracy {
         });
         let job = job.clone();
         self.measuring = self.run("study", view, move |cancel, sender, wake| {
-            let _ = study::report(&job, cancel, &mut |point, of| {
+            let _ = study::report(&job, &packed.scene, cancel, &mut |point, of| {
                 let _ = sender.send((point.clone(), of));
                 wake();
             });
         });
     }
 
-    /// What has been measured of a job's scene so far, and how much there will be.
+    /// What has been measured of a job's scene so far, and how much there will be if it goes on.
     pub(super) fn points(&self, job: &Job) -> (&[Point], usize) {
         let view = view_of(job);
         let measured = self.measured.as_ref().filter(|it| it.view == view);
@@ -246,9 +251,19 @@ impl Accuracy {
             }
         }
         if let (Some(measuring), Some(measured)) = (&self.measuring, &mut self.measured) {
-            for (point, of) in measuring.news.try_iter() {
-                measured.of = of;
-                measured.points.push(point);
+            let ended = loop {
+                match measuring.news.try_recv() {
+                    Ok((point, of)) => {
+                        measured.of = of;
+                        measured.points.push(point);
+                    }
+                    Err(TryRecvError::Empty) => break false,
+                    Err(TryRecvError::Disconnected) => break true,
+                }
+            };
+            if ended {
+                measured.of = measured.points.len();
+                self.measuring = None;
             }
         }
     }

@@ -52,12 +52,9 @@ impl App {
                 Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
                 Command::ToggleSpectrum => self.plots.toggle(),
                 Command::ToggleAccuracy => self.plots.toggle_accuracy(),
-                Command::Adopt(numbers) => self.document.change(|document| {
-                    let render = &mut document.project.render;
-                    render.step_voxels = Some(numbers.step_voxels);
-                    render.wavelengths = Some(numbers.wavelengths);
-                    render.samples_per_pixel = Some(numbers.samples_per_pixel);
-                }),
+                Command::Adopt(numbers) => self
+                    .document
+                    .change(|document| numbers.by_hand(&mut document.project.render)),
                 Command::Dismiss => self.notice = None,
                 Command::Restore => self.restore(),
                 Command::ForgetSession => self.autosave.forget(),

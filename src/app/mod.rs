@@ -325,8 +325,9 @@ impl eframe::App for App {
         if self.plots.shows_accuracy()
             && let Some(job) = job
         {
-            let is_idle = self.picture.progress.finished;
-            self.accuracy.measure(job, is_idle);
+            let is_done = self.picture.progress.finished;
+            let packed = if is_done { self.engine.scene() } else { None };
+            self.accuracy.measure(job, packed);
         }
         let about = plots::Shown {
             job,

@@ -42,7 +42,7 @@ struct Known {
 impl Accuracy {
     /// `has_limit`: whether the picture had to be done in time.
     pub(super) fn of(aim: &Aim, wished: project::Accuracy, frame: &Frame, has_limit: bool) -> Self {
-        let numbers = aim.carried();
+        let numbers = Numbers::of(&aim.settings).carrying(aim.plan.wavelengths());
         let known = aim.pilot.as_ref().map(|pilot| {
             let [cpu_s, wall_s] = pilot.seconds(numbers);
             Known {

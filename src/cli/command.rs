@@ -249,7 +249,7 @@ fn refuse_mistyped_command(files: &[PathBuf]) -> Result<(), CliError> {
     else {
         return Ok(());
     };
-    match did_you_mean(word, ["render", "info", "spectrum", "help"]) {
+    match did_you_mean(word, ["render", "study", "info", "spectrum", "help"]) {
         Some(command) => Err(CliError::Usage(format!(
             "there is no command and no file named {word}; did you mean {command}?"
         ))),

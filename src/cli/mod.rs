@@ -11,6 +11,7 @@ mod json;
 mod load;
 mod output;
 mod plan;
+mod pool;
 mod render;
 mod spectrum;
 mod stats;

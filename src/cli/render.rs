@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use super::accuracy::Accuracy;
 use super::command::Render;
 use super::error::CliError;
+use super::pool::pool;
 use super::stats::{Seconds, Stats};
 use super::{load, output};
 use crate::export::{self, ExportError, Still};
@@ -13,7 +14,7 @@ use crate::render::costs::costs;
 use crate::render::still::render_until;
 use crate::render::{Cancel, Frame, Plan};
 use crate::scene::Scene;
-use crate::study;
+use crate::study::{self, Numbers};
 
 impl Render {
     /// Does it. The clock is read here only: what the core makes does not depend on time.
@@ -22,15 +23,7 @@ impl Render {
         export::check_target(&self.output, &self.project.sources())
             .and_then(|()| self.stats.as_deref().map_or(Ok(()), export::check_writable))
             .map_err(|error| CliError::failed("nothing was rendered", error))?;
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads)
-            .build()
-            .map_err(|error| {
-                CliError::failed(
-                    "the threads cannot be started; give fewer by --threads",
-                    error,
-                )
-            })?;
+        let pool = pool(self.threads)?;
 
         let (volume, load) = timed(|| pool.install(|| load::volume(&self.project)));
         let mut still = Still::new(&self.project, &volume?, None).map_err(CliError::project)?;
@@ -43,6 +36,10 @@ impl Render {
             let never = Cancel::never();
             let aim = study::aim(&scene, still.plan(&scene), settings, wished, end, &never);
             still.job.settings = aim.settings;
+            if end.is_some() {
+                // What a clock has chosen no scene file would come to again.
+                Numbers::of(&aim.settings).by_hand(&mut still.project.render);
+            }
             let frame = with_a_bar(&still, &scene, &aim.plan, end);
             (aim, frame)
         };
@@ -71,7 +68,7 @@ impl Render {
                 render_cpu_s: took.cpu_s,
                 accuracy: Accuracy::of(&aim, still.job.accuracy, &frame, end.is_some()),
                 threads,
-                project: &self.project,
+                project: &still.project,
                 job: &still.job,
                 scene: &scene,
                 frame: &frame,

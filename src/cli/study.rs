@@ -6,6 +6,7 @@ use image::{ImageFormat, RgbImage};
 
 use super::command::Study;
 use super::error::CliError;
+use super::pool::pool;
 use super::table::Table;
 use super::{load, output};
 use crate::export;
@@ -29,21 +30,13 @@ impl Study {
             export::check_target(file, &self.project.sources())
                 .map_err(|error| CliError::failed("nothing was measured", error))?;
         }
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads)
-            .build()
-            .map_err(|error| {
-                CliError::failed(
-                    "the threads cannot be started; give fewer by --threads",
-                    error,
-                )
-            })?;
+        let pool = pool(self.threads)?;
         let volume = pool.install(|| load::volume(&self.project))?;
         let job = self.project.job(&volume).map_err(CliError::project)?;
         let bar = output::progress_bar();
         let mut known = 0;
         let measured = pool.install(|| {
-            report(&job, &Cancel::never(), &mut |_, count| {
+            report(&job, &job.scene(None), &Cancel::never(), &mut |_, count| {
                 known += 1;
                 output::advance(&bar, f64::from(known) / count as f64);
             })

@@ -20,7 +20,8 @@ use crate::volume::Volume;
 pub struct Still {
     /// What is rendered.
     pub job: Job,
-    project: Project,
+    /// What is told of it, so that the same picture comes of it again.
+    pub project: Project,
     locked: Option<Metering>,
 }
 

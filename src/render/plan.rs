@@ -160,6 +160,11 @@ impl Plan {
         out.filter_map(|it| it.bound).sum()
     }
 
+    /// Whether light is gathered from all sides: what is scattered, or falls on the stage.
+    pub fn gathers(&self) -> bool {
+        self.wanted.scatter || self.wanted.fire_light
+    }
+
     /// Whether rays are bent.
     pub fn bends(&self) -> bool {
         self.wanted.bent.is_some()
@@ -221,6 +226,11 @@ impl Plan {
         };
         let fields = Fields::new(scene, &self.tables, self.wanted, known, level, cancel)?;
         Some(cell.get_or_init(|| fields))
+    }
+
+    /// Works out how light is bent, in the calling thread's rayon pool, if that is asked for and nobody has.
+    pub fn bend(&self, scene: &Scene) {
+        self.bent(scene);
     }
 
     /// The fields, as far as they are what bends light.

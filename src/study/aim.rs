@@ -6,7 +6,7 @@ use super::numbers::Numbers;
 use super::pilot::Pilot;
 use crate::project::Accuracy;
 use crate::render::{Cancel, Plan, Settings};
-use crate::scene::{Scene, WavelengthSet};
+use crate::scene::Scene;
 
 /// What a picture is rendered with.
 #[derive(Debug)]
@@ -17,21 +17,6 @@ pub struct Aim {
     pub plan: Plan,
     /// What is known of errors and seconds; `None` where there was nothing to choose, or nothing to be seen.
     pub pilot: Option<Pilot>,
-}
-
-impl Aim {
-    /// The numbers as the plan carries them: where what falls on a stage or is scattered calls for it, it takes more
-    /// wavelengths than the settings say.
-    pub fn carried(&self) -> Numbers {
-        let numbers = Numbers::of(&self.settings);
-        let carried = WavelengthSet::ALL
-            .into_iter()
-            .find(|set| set.count() == self.plan.wavelengths());
-        Numbers {
-            wavelengths: carried.unwrap_or(numbers.wavelengths),
-            ..numbers
-        }
-    }
 }
 
 /// Share of the time that is left for which a march is chosen: what it takes is known within a quarter.

@@ -1,6 +1,6 @@
 //! The numbers that accuracy is made of, and which of them are tried.
 
-use crate::project::Accuracy;
+use crate::project::{Accuracy, RenderSettings};
 use crate::render::Settings;
 use crate::scene::WavelengthSet;
 
@@ -41,6 +41,19 @@ impl Numbers {
         }
     }
 
+    /// The same with as many wavelengths as a plan carries: where what falls on a stage or is scattered calls for it, that is
+    /// more than settings say.
+    #[must_use]
+    pub fn carrying(self, count: u32) -> Self {
+        let carried = WavelengthSet::ALL
+            .into_iter()
+            .find(|set| set.count() == count);
+        Self {
+            wavelengths: carried.unwrap_or(self.wavelengths),
+            ..self
+        }
+    }
+
     /// Those of them that were to be chosen, the others as given.
     #[must_use]
     pub fn where_free(self, wished: Accuracy, given: Self) -> Self {
@@ -61,6 +74,13 @@ impl Numbers {
                 given.samples_per_pixel
             },
         }
+    }
+
+    /// Sets all three by hand.
+    pub fn by_hand(self, render: &mut RenderSettings) {
+        render.step_voxels = Some(self.step_voxels);
+        render.wavelengths = Some(self.wavelengths);
+        render.samples_per_pixel = Some(self.samples_per_pixel);
     }
 
     /// In words: "step 2, 6 wavelengths, 1 ray".

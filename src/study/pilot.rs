@@ -60,6 +60,8 @@ pub struct Pilot {
     /// The set that steps and rays were tried with.
     set: WavelengthSet,
     features: usize,
+    /// Whether light from all sides is a part of the picture.
+    needs_fields: bool,
     /// By how much more samples the whole picture takes than its part says, and seconds of processor time of each.
     more_samples: f64,
     cpu_s_of_sample: f64,
@@ -175,6 +177,7 @@ impl Pilot {
             rays,
             set,
             features: plan.tables.features.len(),
+            needs_fields: plan.gathers(),
             lit,
             work_of_ray,
         };
@@ -303,6 +306,8 @@ impl Pilot {
     /// The same among those whose march takes at most so many seconds here and now; the quickest if none is so quick.
     pub fn choose_within(&self, wished: Accuracy, given: Numbers, wall_s: f64) -> Numbers {
         let mut all = self.choices(wished, given);
+        // Light from all sides is worked out for one set, and would take its time for another.
+        all.retain(|numbers| !self.needs_fields || numbers.wavelengths == self.set);
         let seconds = |numbers: &Numbers| self.seconds(*numbers)[1];
         let quickest = all
             .iter()

@@ -48,6 +48,8 @@ pub struct Point {
     pub variant: Variant,
     /// Seconds of the whole picture, planning and fields counted: of processor time, and by the wall clock.
     pub took: Took,
+    /// The march alone of that.
+    pub march: Took,
     /// By how much the wall clock's seconds differ from round to round: half of the range.
     pub spread_s: f64,
     /// How far it is from the reference.
@@ -83,6 +85,8 @@ struct Bench<'a> {
     scene: &'a Scene,
     plan: &'a Plan,
     planning: Took,
+    /// What it took to find out how light is bent, which all plans that bend it take over.
+    bending: Took,
     settings: Settings,
     part: Part,
     pilot: Pilot,
@@ -91,36 +95,42 @@ struct Bench<'a> {
     cancel: &'a Cancel,
 }
 
-/// Measures, in the calling thread's rayon pool. `progress` hears each point as it is known, and how many there will be. `None`
-/// if cancelled, or if there is nothing to be seen.
+/// Measures a job's scene, in the calling thread's rayon pool. `progress` hears each point as it is known, and how many there
+/// will be. `None` if cancelled, or if there is nothing to be seen.
 pub fn report(
     job: &Job,
+    scene: &Scene,
     cancel: &Cancel,
     progress: &mut dyn FnMut(&Point, usize),
 ) -> Option<Report> {
-    let scene = job.scene(None);
-    let (plan, planning) = timed_on_pool(|| Plan::new(&scene, &job.settings));
+    let (plan, planning) = timed_on_pool(|| Plan::new(scene, &job.settings));
+    let ((), bending) = timed_on_pool(|| plan.bend(scene));
     let settings = job.settings;
     let all = |quality: Quality| Accuracy {
         target_de: quality.target_de(),
         ..Accuracy::ALL
     };
     let given = Numbers::of(&settings);
-    let (pilot, tried) = Pilot::new(&scene, &plan, &settings, all(Quality::Final), cancel)?;
-    let choose = |quality| (quality, pilot.choose(all(quality), given));
+    let (pilot, tried) = Pilot::new(scene, &plan, &settings, all(Quality::Final), cancel)?;
+    let choose = |quality| {
+        let numbers = pilot.choose(all(quality), given);
+        let plan = Plan::after(scene, &numbers.within(&settings), &plan.decisions);
+        (quality, numbers.carrying(plan.wavelengths()))
+    };
     let qualities = Quality::ALL.map(choose).to_vec();
     drop(tried);
 
-    let part = Part::lit(&scene, &plan, PACKETS, cancel)?;
-    let at = plan.at(&scene, &REFERENCE.within(&settings));
+    let part = Part::lit(scene, &plan, PACKETS, cancel)?;
+    let at = plan.at(scene, &REFERENCE.within(&settings));
     let rays = REFERENCE.samples_per_pixel;
-    let reference = part.render(&scene, &at, REFERENCE.step_voxels, rays, cancel)?;
+    let reference = part.render(scene, &at, REFERENCE.step_voxels, rays, cancel)?;
     let mut bench = Bench {
         known: Vec::new(),
         job,
-        scene: &scene,
+        scene,
         plan: &plan,
         planning,
+        bending,
         settings,
         sight: Sight::of(&reference.xyz, part.weights())?,
         reference: reference.xyz,
@@ -130,7 +140,7 @@ pub fn report(
     };
     let still = qualities[2].1;
     let effects = Effect::ALL.into_iter().filter(|&effect| {
-        effect != Effect::Wavelengths && plan.switched(&scene, &settings, effect).is_some()
+        effect != Effect::Wavelengths && plan.switched(scene, &settings, effect).is_some()
     });
     let effects: Vec<Effect> = effects.collect();
     let chosen = bench.worth_measuring(&qualities);
@@ -228,6 +238,13 @@ impl Bench<'_> {
             plan.take_over(known);
         }
         let known = known.map(|(_, took)| *took);
+        // Of another scene it is worked out here, off the clock.
+        plan.bend(scene);
+        let bending = if plan.bends() {
+            self.bending
+        } else {
+            Took::default()
+        };
         let (fields, took) = timed_on_pool(|| plan.fields(scene, Level::Fine, self.cancel));
         fields?;
         let in_fields = known.unwrap_or(took);
@@ -262,9 +279,11 @@ impl Bench<'_> {
         }
         took.sort_by(|one, other| one.wall_s.total_cmp(&other.wall_s));
         let (quickest, slowest) = (took[0], took[took.len() - 1]);
+        let march = took[took.len() / 2];
         let error = self.sight.error(&self.reference, &xyz);
         Some(Point {
-            took: self.planning + in_fields + took[took.len() / 2],
+            took: self.planning + bending + in_fields + march,
+            march,
             spread_s: 0.5 * (slowest.wall_s - quickest.wall_s),
             error: error.at_least(self.pilot.own_error()),
             on_front: false,
@@ -283,7 +302,7 @@ impl Bench<'_> {
         if let Err(error) = job.flame.check(&job.volume) {
             return Some(Err(error.to_string()));
         }
-        let scene = job.scene(None);
+        let scene = job.scene(Some(self.scene));
         let effects = self.settings.effects.as_decided(&self.plan.decisions);
         let settings = Settings {
             effects,
@@ -302,6 +321,7 @@ impl Point {
         Self {
             variant,
             took: Took::default(),
+            march: Took::default(),
             spread_s: 0.0,
             error: Error::default(),
             on_front: false,

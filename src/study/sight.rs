@@ -229,6 +229,7 @@ mod tests {
             (apart, sight.error(&one, &both))
         });
         let ([de95, de_mean], expected) = found.unwrap_or_default();
+        // What is neglected is of the second order: a per cent of a change by a per cent or two.
         assert!(expected.de95 > 0.5);
         assert!(
             (de95 / expected.de95 - 1.0).abs() < 0.02,

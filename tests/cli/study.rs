@@ -73,7 +73,15 @@ fn what_cannot_be_studied_is_said() {
     assert!(said.contains("name the folder"), "{said}");
     let [_, said] = place.expect(1, &format!("study {SMALL} -o dark --set soot.amount=0"));
     assert!(said.contains("nothing to be seen"), "{said}");
-    assert!(!place.names().contains(&"dark/accuracy.csv".to_owned()));
+    assert!(!place.path("dark/accuracy.csv").exists());
+    // Behind hot gas that shows nothing itself a picture is lit, and no sample is taken.
+    place.expect(
+        0,
+        &format!("study {SMALL} -o behind --set soot.amount=0 --set stage.backdrop=checker"),
+    );
+    assert!(place.path("behind/accuracy.png").exists());
+    let [_, said] = place.expect(2, "studdy");
+    assert!(said.contains("did you mean study?"), "{said}");
 }
 
 #[test]
@@ -109,6 +117,10 @@ fn an_error_that_is_wished_or_a_time_that_is_up_stops_a_picture() {
         "{flaws:?}"
     );
     assert!(hurried["peak"]["luminance_cd_m2"].as_f64().unwrap() > 0.0);
+    // What the clock has chosen is told, so that the same picture can be had again.
+    let told = &hurried["scene"]["render"];
+    assert_eq!(told["step_voxels"], hurried["settings"]["step_voxels"]);
+    assert_eq!(told["wavelengths"], hurried["settings"]["wavelengths"]);
     let by_hand = stats(
         "--set render.step_voxels=2 --set render.wavelengths=6 --set render.samples_per_pixel=1",
     );

@@ -8,7 +8,7 @@ use crate::export::Format;
 use crate::project::{CameraSettings, Project, Quality};
 use crate::render::Effects;
 use crate::render::develop::Metering;
-use crate::scene::WavelengthSet;
+use crate::study::Numbers;
 use crate::volume::Volume;
 
 /// How exactly an export is rendered.
@@ -81,15 +81,12 @@ impl Wish {
         let camera = document.last_job()?.camera;
         let mut project = self.exactness.of(&document.project);
         if self.exactness == Exactness::AsSeen {
-            // What was chosen for the window is what is seen.
-            let seen = document.last_job()?.settings;
-            let render = &mut project.render;
-            render.step_voxels = Some(seen.step_voxels);
-            let carried = WavelengthSet::ALL
-                .into_iter()
-                .find(|set| Some(set.count()) == document.carried);
-            render.wavelengths = Some(carried.unwrap_or(seen.wavelengths));
-            render.samples_per_pixel = Some(seen.samples_per_pixel);
+            // What was chosen for the window, and is carried in it, is what is seen.
+            let asked = Numbers::of(&document.last_job()?.settings);
+            let carried = document.carried;
+            carried
+                .map_or(asked, |count| asked.carrying(count))
+                .by_hand(&mut project.render);
         }
         project.camera = CameraSettings::from(&camera);
         project.render.size = self.size;

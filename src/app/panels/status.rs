@@ -104,7 +104,12 @@ fn rendering(ui: &mut Ui, app: &App) {
         .as_ref()
         .map_or(Duration::ZERO, |submitted| submitted.at.elapsed());
     bar(ui, share(progress));
-    let accuracy = accuracy_words(app.told.as_ref(), progress);
+    let job = app.document.last_job();
+    let accuracy = if job.is_some_and(|job| app.accuracy.sees_nothing(job)) {
+        "nothing is seen, so there is no error".to_owned()
+    } else {
+        accuracy_words(app.told.as_ref(), progress)
+    };
     ui.allocate_ui(vec2(ACCURACY_WIDTH, ui.available_height()), |ui| {
         ui.set_min_width(ACCURACY_WIDTH);
         let label = ui.add(Label::new(accuracy).truncate());

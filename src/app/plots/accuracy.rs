@@ -1,4 +1,4 @@
-//! What accuracy costs in the scene on show: seconds along the bottom, error up the side, both in equal factors. The pale line
+//! What accuracy costs in the scene on show: seconds of the march along the bottom, error up the side, both in equal factors. The pale line
 //! is what is expected of the best choices, dots are what was measured, the ring is the picture on show. A click adopts a dot.
 
 use egui::{Color32, RichText, Role, Sense, Ui, Vec2, WidgetInfo};
@@ -40,7 +40,11 @@ pub(super) fn show(
     commands: &mut Vec<Command>,
 ) {
     let (Some(job), Some(told)) = (job, told) else {
-        ui.label("The scene is looked at as soon as there is a fine picture of it.");
+        ui.label(if job.is_some_and(|job| accuracy.sees_nothing(job)) {
+            "Nothing is seen in this picture: there is no error to speak of."
+        } else {
+            "The scene is looked at as soon as there is a fine picture of it."
+        });
         return;
     };
     let Some(pilot) = accuracy.pilot(job) else {
@@ -147,7 +151,7 @@ fn dots(expected: &[&Choice], points: &[Point]) -> Vec<Dot> {
         .iter()
         .filter(|it| !matches!(it.status, Status::Failed(_)));
     let measured = measured.map(|it| Dot {
-        at: place(it.took.cpu_s, it.error.de95),
+        at: place(it.march.cpu_s, it.error.de95),
         family: Some(it.variant.family),
         numbers: it.variant.numbers,
         words: format!("{}, measured", it.variant.in_words()),

@@ -37,11 +37,16 @@ impl Plan {
         let three = baked::wavelengths(scene);
         let mut plan = Self::deciding(scene, settings, three, features, self.decisions.clone());
         baked::bake(&mut plan.tables, scene);
-        if plan.wanted.bent == self.wanted.bent {
-            plan.bent = self.bent.clone();
-        }
+        plan.bend_as(self);
         flaws::add(&mut plan, scene, settings);
         plan
+    }
+
+    /// Takes over what bends light, if it is wanted in the same way.
+    fn bend_as(&mut self, other: &Self) {
+        if self.wanted.bent == other.wanted.bent && self.bent.get().is_none() {
+            self.bent.clone_from(&other.bent);
+        }
     }
 
     fn beside(&self, scene: &Scene, settings: &Settings, keeps: impl Fn(Effect) -> bool) -> Self {
@@ -54,9 +59,7 @@ impl Plan {
         let nodes = wavelengths::of(scene, settings.wavelengths, scattered);
         let features = scene.flame.glow().features();
         let mut plan = Self::deciding(scene, settings, nodes, features, decisions);
-        if plan.wanted.bent == self.wanted.bent {
-            plan.bent = self.bent.clone();
-        }
+        plan.bend_as(self);
         flaws::add(&mut plan, scene, settings);
         plan
     }
@@ -91,7 +94,9 @@ impl Plan {
             self.tables.wavelengths.clone()
         };
         let features = scene.flame.glow().features();
-        Some(Self::deciding(scene, settings, nodes, features, decisions))
+        let mut plan = Self::deciding(scene, settings, nodes, features, decisions);
+        plan.bend_as(self);
+        Some(plan)
     }
 
     /// Whether this scene, as it is packed, can show the effect.
@@ -115,9 +120,7 @@ impl Plan {
 
     /// Takes from another plan of the same scene what it has worked out and this one needs.
     pub fn take_over(&mut self, other: &Self) {
-        if self.wanted.bent == other.wanted.bent && self.bent.get().is_none() {
-            self.bent = other.bent.clone();
-        }
+        self.bend_as(other);
         let same = self.wanted == other.wanted
             && self.tables.wavelengths.nodes_nm == other.tables.wavelengths.nodes_nm
             && self.tables.features == other.tables.features
