@@ -16,8 +16,8 @@
 //!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written
 //!  6 project      all that a person can set: the scene file, --set, presets
 //!  5 render       THE CORE: plan and tables; fields of scattered, thrown and bent light; ways, kernel and march; film,
-//!                 passes, develop; the unbiased reference; what effects cost. Headless, no global state, and no clock but
-//!                 to tell what work took
+//!                 passes, develop; parts that stand for a picture; the unbiased reference; what effects cost. Headless,
+//!                 no global state, and no clock but to tell what work took
 //!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot and how it bends light, how finely and
 //!                 in which means each brick is looked at, Camera,
 //!                 Stage, wavelength sets

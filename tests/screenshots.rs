@@ -52,7 +52,7 @@ fn window(folder: &Path, name: &str, files: &[&str]) {
 fn window_after(folder: &Path, name: &str, files: &[&str], hands: &str) {
     // The script succeeds if the picture was taken and the program was there to be seen.
     let script = format!(
-        r#""$0" "${{@:2}}" & program=$!; sleep 25; {hands}; import -window root "$1"; taken=$?
+        r#""$0" "${{@:2}}" & program=$!; sleep 45; {hands}; import -window root "$1"; taken=$?
         kill $program || exit 1; wait; exit $taken"#
     );
     let output = cleared(name);

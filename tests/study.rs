@@ -132,7 +132,10 @@ fn predictions_hold_in_all_scenes() {
         "dense_ascii/panfire_density.txt",
     ] {
         let path = shared.join("data").join(file);
-        compare(file, &Looked::at(&[path], &[], [240, 160]));
+        for [_, [expected, found]] in compare(file, &Looked::at(&[path], &[], [240, 160])) {
+            // An error that is the reference's own is in both pictures that are compared, and so is not found.
+            assert!(found < 1.5 * expected, "{file}: {expected} {found}");
+        }
     }
 }
 
