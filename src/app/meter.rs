@@ -117,7 +117,7 @@ mod tests {
                     opacity: [0.0; 3],
                 })
                 .to_vec(),
-            samples: 0,
+            taken: Vec::new(),
         });
         film
     }

@@ -26,6 +26,8 @@ pub struct Picture {
 struct Sheet {
     film: Film,
     strides: Vec<u8>,
+    /// Samples that each pixel took so far.
+    samples: Vec<f32>,
 }
 
 /// How far a job is.
@@ -83,6 +85,12 @@ impl Picture {
         &self.shown.strides
     }
 
+    /// For each pixel of the film, row by row, the samples of the medium that it took so far: those of a packet of rays, which
+    /// march together, evenly spread over its pixels.
+    pub fn samples(&self) -> &[f32] {
+        &self.shown.samples
+    }
+
     /// The job whose news were taken last.
     pub fn generation(&self) -> Option<Generation> {
         self.generation
@@ -116,12 +124,13 @@ impl Picture {
                 // The first pass writes every pixel, so a sheet that was not finished serves again.
                 let again = self.coming.take();
                 let again = again.filter(|sheet| sheet.film.size() == size);
+                let again = again.map(Sheet::with_nothing_taken);
                 self.coming = Some(again.unwrap_or_else(|| Sheet::new(size)));
             }
             News::Tile(tile) => {
                 progress.rays_in_pass += tile.pixels.len() as u64;
                 progress.rays += tile.pixels.len() as u64;
-                progress.samples += tile.samples;
+                progress.samples += tile.samples();
                 if let Some(coming) = &mut self.coming {
                     coming.merge(&tile);
                 } else {
@@ -161,12 +170,23 @@ impl Sheet {
     fn new(size: [u32; 2]) -> Self {
         let film = Film::new(size);
         let strides = vec![1; film.pixels().len()];
-        Self { film, strides }
+        let samples = vec![0.0; film.pixels().len()];
+        Self {
+            film,
+            strides,
+            samples,
+        }
     }
 
-    /// Lays a tile on the film and notes its stride for the pixels that it covers.
+    fn with_nothing_taken(mut self) -> Self {
+        self.samples.fill(0.0);
+        self
+    }
+
+    /// Lays a tile on the film, and notes its stride and what it took for the pixels that it covers.
     fn merge(&mut self, tile: &Tile) {
         self.film.merge(tile);
+        self.count(tile);
         let size = self.film.size();
         let [across, down] = [0, 1].map(|axis| {
             let end = tile.origin[axis] + tile.size[axis] * tile.stride;
@@ -180,6 +200,22 @@ impl Sheet {
             .skip(down.start)
         {
             row[across.clone()].fill(stride);
+        }
+    }
+
+    /// Adds what a tile took to its pixels: each ray's samples evenly to the pixels that it stands for.
+    fn count(&mut self, tile: &Tile) {
+        let size = self.film.size();
+        for (row, column) in (0..tile.size[1]).flat_map(|y| (0..tile.size[0]).map(move |x| (y, x)))
+        {
+            let [across, down] = tile.block(column, row, size);
+            let each = tile.samples_of(column, row) / (across.len() * down.len()).max(1) as f32;
+            for y in down {
+                let row = y * size[0] as usize;
+                for samples in &mut self.samples[row + across.start..row + across.end] {
+                    *samples += each;
+                }
+            }
         }
     }
 }
@@ -197,11 +233,18 @@ mod tests {
             origin,
             size,
             pixels: vec![Pixel::default(); (size[0] * size[1]) as usize],
-            samples: 0,
+            taken: Vec::new(),
         };
         let mut sheet = Sheet::new([6, 3]);
         sheet.merge(&tile(4, [0, 0], [2, 1]));
         assert_eq!(sheet.strides, [4; 18]);
+        // Each ray's samples are spread over the pixels of its block that are in the picture.
+        let mut counted = tile(4, [0, 0], [2, 1]);
+        counted.taken = vec![48];
+        sheet.merge(&counted);
+        let ends = [sheet.samples[0], sheet.samples[17]];
+        assert_eq!(ends, [24.0 / 12.0, 24.0 / 6.0]);
+        assert_eq!(sheet.samples.iter().sum::<f32>(), 48.0);
         sheet.merge(&tile(2, [4, 2], [1, 1]));
         sheet.merge(&tile(1, [1, 0], [2, 2]));
         let wanted = [

@@ -95,7 +95,7 @@ fn test_film() -> crate::render::Film {
         origin: [0, 0],
         size: [3, 2],
         pixels,
-        samples: 0,
+        taken: Vec::new(),
     });
     film
 }

@@ -195,7 +195,7 @@ mod tests {
                 origin: [0, 0],
                 size: [1, 1],
                 pixels,
-                samples: 0,
+                taken: Vec::new(),
             });
             Metering::of(&film)
         };
@@ -220,7 +220,7 @@ mod tests {
             origin: [0, 0],
             size: [2, 1],
             pixels,
-            samples: 0,
+            taken: Vec::new(),
         });
         let metering = Metering::of(&film);
         assert_eq!(metering.bright_y, 2.0);

@@ -1,5 +1,9 @@
 //! The film: where spectra become three numbers, and where passes and samples come together.
 
+use std::ops::Range;
+
+use super::march::PACKET_SIDE;
+
 /// What one ray, or the mean of many, leaves on the film.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Pixel {
@@ -22,8 +26,46 @@ pub struct Tile {
     pub size: [u32; 2],
     /// Row by row from the top.
     pub pixels: Vec<Pixel>,
-    /// Samples of the medium that were taken for it.
-    pub samples: u64,
+    /// Samples of the medium that were taken for each packet of [`PACKET_SIDE`]² rays, packets row by row.
+    pub taken: Vec<u32>,
+}
+
+impl Tile {
+    /// Samples of the medium that were taken for all of it.
+    pub fn samples(&self) -> u64 {
+        self.taken.iter().map(|&taken| u64::from(taken)).sum()
+    }
+
+    /// Samples that the ray at this column and row of the tile took, as the mean of its packet, whose rays march together.
+    /// 0 where nobody has counted.
+    pub fn samples_of(&self, column: u32, row: u32) -> f32 {
+        let packet = [column, row].map(|ray| ray / PACKET_SIDE);
+        let across = self.size[0].div_ceil(PACKET_SIDE);
+        let taken = self.taken.get((packet[1] * across + packet[0]) as usize);
+        let side = |axis: usize| PACKET_SIDE.min(self.size[axis] - packet[axis] * PACKET_SIDE);
+        taken.map_or(0.0, |&taken| taken as f32 / (side(0) * side(1)) as f32)
+    }
+
+    /// Takes the next sample of the same rays into the mean.
+    pub(super) fn join(&mut self, next: &Self) {
+        let share = 1.0 / (next.sample as f32 + 1.0);
+        for (mean, sample) in self.pixels.iter_mut().zip(&next.pixels) {
+            mean.join(sample, share);
+        }
+        for (all, taken) in self.taken.iter_mut().zip(&next.taken) {
+            *all = all.saturating_add(*taken);
+        }
+    }
+
+    /// The pixels that the ray at this column and row stands for, on a picture of this size: columns and rows.
+    pub fn block(&self, column: u32, row: u32, size: [u32; 2]) -> [Range<usize>; 2] {
+        let first = [
+            self.origin[0] + column * self.stride,
+            self.origin[1] + row * self.stride,
+        ];
+        [0, 1]
+            .map(|axis| first[axis] as usize..(first[axis] + self.stride).min(size[axis]) as usize)
+    }
 }
 
 /// A picture in linear XYZ with opacity.
@@ -61,16 +103,13 @@ impl Film {
     /// Lays a tile on the film. A coarse one fills its blocks; a later sample joins the mean of those before
     /// it, so the samples of a pixel must arrive in order (tiles of one pass may come in any).
     pub fn merge(&mut self, tile: &Tile) {
-        let [width, height] = self.size;
+        let width = self.size[0] as usize;
         let share = 1.0 / (tile.sample as f32 + 1.0);
         for (i, pixel) in tile.pixels.iter().enumerate() {
             let (column, row) = (i as u32 % tile.size[0], i as u32 / tile.size[0]);
-            let left = tile.origin[0] + column * tile.stride;
-            let top = tile.origin[1] + row * tile.stride;
-            for y in top..(top + tile.stride).min(height) {
-                let row = (y * width) as usize;
-                let right = (left + tile.stride).min(width);
-                for old in &mut self.pixels[row + left as usize..row + right as usize] {
+            let [across, down] = tile.block(column, row, self.size);
+            for y in down {
+                for old in &mut self.pixels[y * width + across.start..y * width + across.end] {
                     if tile.sample == 0 {
                         *old = *pixel;
                     } else {
@@ -84,7 +123,7 @@ impl Film {
 
 impl Pixel {
     /// Moves the mean towards one more sample, which counts for `share` of the whole.
-    fn join(&mut self, sample: &Self, share: f32) {
+    pub(super) fn join(&mut self, sample: &Self, share: f32) {
         for c in 0..3 {
             self.xyz[c] += share * (sample.xyz[c] - self.xyz[c]);
             self.opacity[c] += share * (sample.opacity[c] - self.opacity[c]);
@@ -107,7 +146,7 @@ mod tests {
             origin,
             size,
             pixels: vec![pixel; (size[0] * size[1]) as usize],
-            samples: 0,
+            taken: Vec::new(),
         }
     }
 
@@ -122,6 +161,20 @@ mod tests {
             .collect();
         assert_eq!(lit.iter().filter(|&&lit| lit).count(), 3);
         assert!(lit[4] && lit[9] && lit[14]);
+    }
+
+    #[test]
+    fn what_a_packet_took_is_its_rays_evenly() {
+        // Two packets across, one of them a single ray wide, and two down.
+        let mut counted = tile(2, 0, [10, 4], [5, 6], 1.0);
+        counted.taken = vec![160, 8, 40, 6];
+        assert_eq!(counted.samples(), 214);
+        let each = [[0, 0], [4, 3], [3, 4], [4, 5]].map(|[x, y]| counted.samples_of(x, y));
+        assert_eq!(each, [10.0, 2.0, 5.0, 3.0]);
+        // The last ray's block ends with the picture.
+        assert_eq!(counted.block(4, 5, [19, 20]), [18..19, 14..16]);
+        // Nobody has counted.
+        assert_eq!(tile(1, 0, [0, 0], [1, 1], 1.0).samples_of(0, 0), 0.0);
     }
 
     #[test]

@@ -289,7 +289,7 @@ impl Look {
         };
         let taken = AtomicU64::new(0);
         let whole = render_pass(scene, plan, &pass, cancel, &|tile| {
-            taken.fetch_add(tile.samples, Ordering::Relaxed);
+            taken.fetch_add(tile.samples(), Ordering::Relaxed);
             let mut light = light
                 .lock()
                 .unwrap_or_else(std::sync::PoisonError::into_inner);

@@ -95,14 +95,50 @@ pub fn render_pass(
         return true;
     };
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
+    for_each_tile(rays, |corner, size| {
+        render_tile(&packets, pass, corner, size, cancel).map(sink)
+    })
+}
+
+/// Renders every sample of a still's picture tile by tile, so that what is there of it is as it will be: from the centre of the
+/// picture outwards, each tile handed to `sink` as the mean of its samples from the worker that made it. `false` if cancelled.
+pub fn render_whole_tiles(
+    scene: &Scene,
+    plan: &Plan,
+    settings: &Settings,
+    cancel: &Cancel,
+    sink: &(dyn Fn(Tile) + Sync),
+) -> bool {
+    let passes = ladder(settings, Audience::Still);
+    let Some(fields) = plan.fields(scene, Level::Fine, cancel) else {
+        return false;
+    };
+    let Ok(packets) = Packets::new(scene, plan, fields, settings.step_voxels, true) else {
+        return true;
+    };
+    for_each_tile(plan.tables.size, |corner, size| {
+        let mut whole: Option<Tile> = None;
+        for pass in &passes {
+            let tile = render_tile(&packets, pass, corner, size, cancel)?;
+            match &mut whole {
+                Some(whole) => whole.join(&tile),
+                None => whole = Some(tile),
+            }
+        }
+        whole.map(&sink)
+    })
+}
+
+/// Calls `work` with the upper left ray and the size of every tile, in the calling thread's rayon pool. Whether none gave
+/// `None`; after one did, those of others may be missing as well.
+fn for_each_tile(rays: [u32; 2], work: impl Fn([u32; 2], [u32; 2]) -> Option<()> + Sync) -> bool {
     let tiles = centre_out(rays);
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     rayon::broadcast(|_| {
         while let Some(&corner) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) {
             let size = [0, 1].map(|axis| TILE.min(rays[axis] - corner[axis]));
-            match render_tile(&packets, pass, corner, size, cancel) {
-                Some(tile) => sink(tile),
-                None => stopped.store(true, Ordering::Relaxed),
+            if work(corner, size).is_none() {
+                stopped.store(true, Ordering::Relaxed);
             }
         }
     });
@@ -132,7 +168,8 @@ fn render_tile(
     cancel: &Cancel,
 ) -> Option<Tile> {
     let mut pixels = vec![Pixel::default(); (size[0] * size[1]) as usize];
-    let mut samples = 0;
+    let packets_across = size.map(|side| side.div_ceil(PACKET_SIDE) as usize);
+    let mut taken = Vec::with_capacity(packets_across[0] * packets_across[1]);
     let offset = subpixel::place(pass.sample, pass.samples);
     for top in (0..size[1]).step_by(PACKET_SIDE as usize) {
         for left in (0..size[0]).step_by(PACKET_SIDE as usize) {
@@ -150,8 +187,9 @@ fn render_tile(
                 };
                 place.map(|[x, y]| [on_picture(0, x), on_picture(1, y)])
             });
-            let (packet, taken) = packets.render(&points, pass.sample, cancel)?;
-            samples += taken;
+            let (packet, of_packet) = packets.render(&points, pass.sample, cancel)?;
+            // More than 2³² samples for sixteen rays would take longer than anybody waits.
+            taken.push(u32::try_from(of_packet).unwrap_or(u32::MAX));
             for (place, pixel) in places.iter().zip(packet) {
                 if let Some([x, y]) = place {
                     pixels[(y * size[0] + x) as usize] = pixel;
@@ -166,7 +204,7 @@ fn render_tile(
         origin,
         size,
         pixels,
-        samples,
+        taken,
     })
 }
 

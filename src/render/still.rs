@@ -93,7 +93,7 @@ fn render_passes(
     let finished = passes.iter().enumerate().all(|(i, pass)| {
         let cancel = if i == 0 { first } else { later };
         render_pass(scene, plan, pass, cancel, &|tile| {
-            counts[1].fetch_add(tile.samples, Ordering::Relaxed);
+            counts[1].fetch_add(tile.samples(), Ordering::Relaxed);
             film.lock()
                 .unwrap_or_else(PoisonError::into_inner)
                 .merge(&tile);

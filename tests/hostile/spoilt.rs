@@ -32,7 +32,7 @@ fn tile(pixel: Pixel, sample: u32) -> Tile {
         origin: AT,
         size: [1, 1],
         pixels: vec![pixel],
-        samples: 1,
+        taken: vec![1],
     }
 }
 

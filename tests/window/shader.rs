@@ -60,7 +60,7 @@ fn film(size: [u32; 2], stride: u32, colours: &[[f32; 3]]) -> Film {
         origin: [0; 2],
         size: size.map(|side| side.div_ceil(stride)),
         pixels,
-        samples: 0,
+        taken: Vec::new(),
     });
     film
 }
