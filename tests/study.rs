@@ -7,14 +7,14 @@
 //! ```
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use sootlight::project::{Accuracy, Project};
 use sootlight::render::clock::timed_on_pool;
 use sootlight::render::difference::difference;
-use sootlight::render::{Cancel, Frame, Level, Plan, Settings, render_planned};
+use sootlight::render::{Cancel, Film, Frame, Level, Plan, Settings, render_planned};
 use sootlight::scene::{Scene, WavelengthSet};
-use sootlight::study::{Numbers, Pilot};
+use sootlight::study::{self, Numbers, Pilot};
 use sootlight::volume::{self, BuiltIn, Limits, Wanted};
 
 use super::common;
@@ -156,4 +156,60 @@ fn three_colours_do_where_little_is_absorbed_and_not_behind_soot() {
     // Planck's law is held by two temperatures there; what is left is of cooler soot.
     assert!(thin < 1.0, "{thin}");
     assert!(thick > 3.0 * thin, "{thin} {thick}");
+}
+
+#[test]
+fn a_whole_picture_is_measured_against_the_reference_pixel_by_pixel() {
+    let looked = Looked::at(&[], &["effects.scattering=off"], [40, 32]);
+    let plan = Plan::new(&looked.scene, &looked.settings);
+    let (pilot, _) = Pilot::new(
+        &looked.scene,
+        &plan,
+        &looked.settings,
+        Accuracy::ALL,
+        &Cancel::never(),
+    )
+    .unwrap();
+    // Rendered tile by tile, every sample at once, it is the picture of the same numbers.
+    let film = Mutex::new(Film::new(looked.settings.size));
+    let whole = study::render_reference(
+        &looked.scene,
+        &plan,
+        &looked.settings,
+        &Cancel::never(),
+        &|tile| film.lock().unwrap().merge(&tile),
+    );
+    assert!(whole);
+    let reference = film.into_inner().unwrap();
+    assert_eq!(reference, looked.whole(&plan, REFERENCE).film);
+
+    let coarse = Numbers {
+        step_voxels: 4.0,
+        wavelengths: WavelengthSet::Fitted(4),
+        samples_per_pixel: 1,
+    };
+    let picture = looked.whole(&plan, coarse).film;
+    let known: Vec<bool> = (0..picture.pixels().len()).map(|i| i % 3 > 0).collect();
+    let apart = study::apart(&pilot, &reference, &known, &picture);
+    for (apart, known) in apart.iter().zip(&known) {
+        assert_eq!(apart.is_finite(), *known);
+    }
+    // What is known of it has the difference that two whole pictures have, at an exposure that a part tells within a tenth.
+    let all = study::apart(&pilot, &reference, &vec![true; known.len()], &picture);
+    let xyz = |film: &Film| -> Vec<[f64; 3]> {
+        let pixels = film.pixels().iter();
+        pixels.map(|pixel| pixel.xyz.map(f64::from)).collect()
+    };
+    let expected = difference(&xyz(&reference), &xyz(&picture));
+    let largest = all.iter().copied().fold(0.0, f32::max);
+    assert!((f64::from(largest) / expected.largest - 1.0).abs() < 0.1);
+    // Measured, it is exactly that, and nothing is measured below what the reference is off by.
+    let own = pilot.own_error();
+    let measured = study::measured(&reference, &picture, own).unwrap();
+    assert!(expected.p95 > own.de95);
+    assert!(
+        (measured.de95 / expected.p95 - 1.0).abs() < 1e-3,
+        "{measured:?} {expected:?}"
+    );
+    assert_eq!(study::measured(&reference, &reference, own).unwrap(), own);
 }

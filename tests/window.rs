@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod canvas;
+mod compare;
 mod controls;
 mod export;
 mod fire;

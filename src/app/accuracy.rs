@@ -3,15 +3,12 @@
 //! A look tells which numbers are good enough for the quality that is wished; the document takes them. While the chart is open
 //! every variant is measured as well, one after another.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
+use super::background::{Ended, Rank, Running, Wake};
 use crate::engine::Packed;
 use crate::project::{self, Job};
-use crate::render::Cancel;
-use crate::study::{self, Choice, Numbers, Pilot, Point};
+use crate::study::{self, Choice, Error, Numbers, Pilot, Point};
 
 /// Share of an error that the next better choice has at most.
 const NEXT: f64 = 0.5;
@@ -21,10 +18,17 @@ pub(super) struct Accuracy {
     /// Whether numbers are chosen at all.
     chooses: bool,
     known: Option<Known>,
-    looking: Option<(Wished, Running<Option<Arc<Pilot>>>)>,
+    looking: Option<Looking>,
     measured: Option<Measured>,
     measuring: Option<Running<(Point, usize)>>,
-    wake: Arc<dyn Fn() + Send + Sync>,
+    wake: Wake,
+}
+
+/// A scene that is being looked at.
+struct Looking {
+    view: Job,
+    wished: Wished,
+    running: Running<Option<Arc<Pilot>>>,
 }
 
 /// A scene that was looked at.
@@ -61,20 +65,6 @@ impl Wished {
     }
 }
 
-/// Work on a thread of its own.
-struct Running<T> {
-    view: Job,
-    generation: Arc<AtomicU64>,
-    news: Receiver<T>,
-}
-
-impl<T> Drop for Running<T> {
-    fn drop(&mut self) {
-        // The thread ends by itself, soon; nobody waits for it.
-        self.generation.fetch_add(1, Ordering::SeqCst);
-    }
-}
-
 /// What is said of the picture on show.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Told {
@@ -82,11 +72,13 @@ pub(super) struct Told {
     pub(super) here: Choice,
     /// The cheapest that is clearly better, if one of those that are tried is.
     pub(super) next: Option<Choice>,
+    /// What a comparison of the whole picture with the reference has found, where there was one.
+    pub(super) measured: Option<Error>,
 }
 
 impl Accuracy {
     /// Calls `wake`, from any thread, when there is something new.
-    pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(super) fn new(wake: Wake) -> Self {
         Self {
             chooses: true,
             known: None,
@@ -141,6 +133,7 @@ impl Accuracy {
         Some(Told {
             here,
             next: next.copied(),
+            measured: None,
         })
     }
 
@@ -164,10 +157,8 @@ impl Accuracy {
         self.receive();
         let view = view_of(job);
         let wanted_for = Wished::of(job);
-        let is_late = |(wished, running): &(Wished, Running<Option<Arc<Pilot>>>)| {
-            running.view != view || *wished != wanted_for
-        };
-        if self.looking.as_ref().is_some_and(is_late) {
+        let looking = self.looking.as_ref();
+        if looking.is_some_and(|it| it.view != view || it.wished != wanted_for) {
             self.looking = None;
         }
         if self.measured.as_ref().is_some_and(|it| it.view != view) {
@@ -186,7 +177,8 @@ impl Accuracy {
         }
         if let (true, Some(packed)) = (wanted, packed) {
             let wished = job.accuracy;
-            let running = self.run("look", view, move |cancel, sender, wake| {
+            let rank = Rank::WithThePicture;
+            let running = Running::begin("look", rank, &self.wake, move |cancel, tell| {
                 let Packed {
                     scene,
                     plan,
@@ -195,11 +187,14 @@ impl Accuracy {
                 } = &packed;
                 let looked = Pilot::new(scene, plan, settings, wished, cancel);
                 if !cancel.is_cancelled() {
-                    let _ = sender.send(looked.map(|(pilot, _)| Arc::new(pilot)));
-                    wake();
+                    tell(looked.map(|(pilot, _)| Arc::new(pilot)));
                 }
             });
-            self.looking = running.map(|running| (wanted_for, running));
+            self.looking = running.map(|running| Looking {
+                view,
+                wished: wanted_for,
+                running,
+            });
         }
     }
 
@@ -212,15 +207,15 @@ impl Accuracy {
             return;
         };
         self.measured = Some(Measured {
-            view: view.clone(),
+            view,
             points: Vec::new(),
             of: 0,
         });
         let job = job.clone();
-        self.measuring = self.run("study", view, move |cancel, sender, wake| {
+        let rank = Rank::BehindThePicture;
+        self.measuring = Running::begin("study", rank, &self.wake, move |cancel, tell| {
             let _ = study::report(&job, &packed.scene, cancel, &mut |point, of| {
-                let _ = sender.send((point.clone(), of));
-                wake();
+                tell((point.clone(), of));
             });
         });
     }
@@ -233,18 +228,16 @@ impl Accuracy {
     }
 
     fn receive(&mut self) {
-        if let Some((wished, looking)) = &self.looking {
-            let found = match looking.news.try_recv() {
-                Ok(pilot) => Some(pilot),
-                Err(TryRecvError::Empty) => None,
+        if let Some(looking) = &self.looking {
+            let found = match looking.running.next() {
+                Ok(found) => found,
                 // It failed: the numbers stay as they are.
-                Err(TryRecvError::Disconnected) => Some(None),
+                Err(Ended) => Some(None),
             };
             if let Some(pilot) = found {
-                let view = looking.view.clone();
                 self.known = Some(Known {
-                    view,
-                    wished: *wished,
+                    view: looking.view.clone(),
+                    wished: looking.wished,
                     pilot,
                 });
                 self.looking = None;
@@ -252,13 +245,13 @@ impl Accuracy {
         }
         if let (Some(measuring), Some(measured)) = (&self.measuring, &mut self.measured) {
             let ended = loop {
-                match measuring.news.try_recv() {
-                    Ok((point, of)) => {
+                match measuring.next() {
+                    Ok(Some((point, of))) => {
                         measured.of = of;
                         measured.points.push(point);
                     }
-                    Err(TryRecvError::Empty) => break false,
-                    Err(TryRecvError::Disconnected) => break true,
+                    Ok(None) => break false,
+                    Err(Ended) => break true,
                 }
             };
             if ended {
@@ -267,38 +260,10 @@ impl Accuracy {
             }
         }
     }
-
-    /// Works on a thread of its own with a pool of one: the picture has the other cores. `None` if the system gives none.
-    fn run<T: Send + 'static>(
-        &self,
-        name: &str,
-        view: Job,
-        work: impl FnOnce(&Cancel, &Sender<T>, &(dyn Fn() + Send + Sync)) + Send + 'static,
-    ) -> Option<Running<T>> {
-        let (sender, news) = channel();
-        let generation = Arc::new(AtomicU64::new(0));
-        let cancel = Cancel::when_passed(Arc::clone(&generation), 0);
-        let wake = Arc::clone(&self.wake);
-        let all = move || {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-            if let Ok(pool) = pool {
-                let work = AssertUnwindSafe(|| pool.install(|| work(&cancel, &sender, &*wake)));
-                // A panic was told where it happened; who waits hears that nobody sends any more.
-                let _ = catch_unwind(work);
-            }
-            wake();
-        };
-        let thread = std::thread::Builder::new().name(format!("sootlight-{name}"));
-        thread.spawn(all).is_ok().then_some(Running {
-            view,
-            generation,
-            news,
-        })
-    }
 }
 
 /// A job without its numbers: what is known of one is known of all with the same.
-fn view_of(job: &Job) -> Job {
+pub(super) fn view_of(job: &Job) -> Job {
     let mut view = job.clone();
     let numbers = Numbers {
         step_voxels: 1.0,

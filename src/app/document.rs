@@ -65,7 +65,7 @@ struct OpenVolume {
 
 /// What an undo brings back. An opening is a step as well: a file dropped by mistake costs nothing.
 #[derive(Debug, Clone)]
-struct Step {
+pub(super) struct Step {
     project: Project,
     metering: Option<Metering>,
     open: Option<Arc<OpenVolume>>,
@@ -126,7 +126,8 @@ impl Document {
         }
     }
 
-    fn step(&self) -> Step {
+    /// All that an undo brings back, as it is.
+    pub(super) fn step(&self) -> Step {
         Step {
             project: self.project.clone(),
             metering: self.metering,
@@ -332,6 +333,16 @@ impl Document {
     /// Whether there is an undo to take back.
     pub fn can_redo(&self) -> bool {
         self.history.can_redo()
+    }
+
+    /// Goes back to what was, as one step of undo.
+    pub(super) fn return_to(&mut self, step: &Step) {
+        let before = self.step();
+        self.go_to(step.clone());
+        let is_same = is_same(self.open.as_ref(), before.open.as_ref());
+        if !is_same || self.project != before.project || self.metering != before.metering {
+            self.history.push(before, within_bounds(self.open.clone()));
+        }
     }
 
     fn go_to(&mut self, step: Step) {

@@ -6,11 +6,13 @@ use std::time::Duration;
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, ViewportCommand};
 
 use super::files::{Request, paths_of};
+use super::maps::Map;
 use super::panels::Command;
+use super::snapshots::Way;
 use super::{App, Closing};
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
-const SHORTCUTS: [(Modifiers, Key, Command); 8] = [
+const SHORTCUTS: [(Modifiers, Key, Command); 13] = [
     (
         Modifiers::COMMAND.plus(Modifiers::SHIFT),
         Key::Z,
@@ -23,6 +25,11 @@ const SHORTCUTS: [(Modifiers, Key, Command); 8] = [
     (Modifiers::NONE, Key::N, Command::TogglePanel),
     (Modifiers::NONE, Key::S, Command::ToggleSpectrum),
     (Modifiers::NONE, Key::C, Command::ToggleAccuracy),
+    (Modifiers::NONE, Key::K, Command::ToggleMap(Map::Cost)),
+    (Modifiers::NONE, Key::E, Command::ToggleMap(Map::Error)),
+    (Modifiers::NONE, Key::G, Command::GrabSnapshot),
+    (Modifiers::NONE, Key::W, Command::Compare(Way::Wipe)),
+    (Modifiers::NONE, Key::Q, Command::Compare(Way::Flip)),
 ];
 
 impl App {
@@ -55,6 +62,22 @@ impl App {
                 Command::Adopt(numbers) => self
                     .document
                     .change(|document| numbers.by_hand(&mut document.project.render)),
+                Command::ToggleMap(map) => self.maps.toggle(map),
+                Command::GrabSnapshot => self.grab(),
+                Command::Compare(way) => {
+                    // There is nothing to compare with yet: this picture will be it.
+                    if self.snapshots.chosen().is_none() {
+                        self.grab();
+                    }
+                    self.snapshots.toggle(way);
+                }
+                Command::CompareWith(number) => self.snapshots.choose(number),
+                Command::RestoreSnapshot(number) => {
+                    if let Some(snapshot) = self.snapshots.get(number) {
+                        self.document.return_to(&snapshot.step);
+                    }
+                }
+                Command::ForgetSnapshot(number) => self.snapshots.forget(number),
                 Command::Dismiss => self.notice = None,
                 Command::Restore => self.restore(),
                 Command::ForgetSession => self.autosave.forget(),
@@ -75,6 +98,15 @@ impl App {
                 Command::KeepOpen => self.closing = Closing::No,
                 Command::ForgetExport => self.exporter.dismiss(),
             }
+        }
+    }
+
+    /// Keeps the picture on show, if there is one, with what is set.
+    fn grab(&mut self) {
+        if self.shows_newest() {
+            let (view, title) = (self.view(), self.document.title());
+            let step = self.document.step();
+            self.snapshots.grab(&self.picture, &view, title, step);
         }
     }
 
@@ -132,9 +164,10 @@ impl App {
             commands.push(Command::CancelLoading);
         } else if pressed(Modifiers::NONE, Key::Escape) {
             // What was opened last is most likely meant; the export stands in front.
-            if !self.panels.export.close() {
-                self.plots.close();
-            }
+            let _ = self.panels.export.close()
+                || self.plots.close()
+                || self.maps.close()
+                || self.snapshots.close();
         }
         commands
     }

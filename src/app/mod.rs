@@ -6,19 +6,23 @@
 
 mod accuracy;
 mod autosave;
+mod background;
 mod canvas;
 mod document;
 mod exporter;
 mod files;
+mod frame;
 mod hands;
 mod history;
 mod lost;
+mod maps;
 mod meter;
 mod opening;
 mod panels;
 mod pictures;
 mod plots;
 mod recent;
+mod snapshots;
 mod start;
 mod theme;
 
@@ -36,11 +40,13 @@ use self::canvas::Canvas;
 use self::exporter::Exporter;
 use self::files::{Loader, Request};
 use self::lost::Lost;
+use self::maps::Maps;
 use self::meter::Meter;
 use self::panels::Panels;
 use self::pictures::Submitted;
 use self::plots::Plots;
 use self::recent::Recent;
+use self::snapshots::Snapshots;
 use crate::colour::display::View;
 use crate::engine::{Engine, Generation, Picture};
 use crate::project::{Job, Project};
@@ -48,8 +54,6 @@ use crate::project::{Job, Project};
 /// While tiles come in, the picture is drawn this often: each drawing takes time from the workers where the
 /// processor is also the graphics card.
 const FRAME: Duration = Duration::from_millis(30);
-/// While a file is read, how far it is is drawn this often.
-const LOADING_FRAME: Duration = Duration::from_millis(100);
 
 /// The program's name to the desktop, and of its folder of data.
 const APP_ID: &str = "sootlight";
@@ -65,6 +69,8 @@ pub struct App {
     accuracy: Accuracy,
     /// What is said of the picture's error.
     told: Option<Told>,
+    maps: Maps,
+    snapshots: Snapshots,
     canvas: Canvas,
     /// Size of the canvas in pixels, once it was laid out.
     canvas_size: Option<[u32; 2]>,
@@ -115,6 +121,7 @@ impl App {
         let export_wake = ctx.clone();
         let exporter = Exporter::new(Arc::new(move || export_wake.request_repaint()));
         let study_wake = ctx.clone();
+        let study_wake: background::Wake = Arc::new(move || study_wake.request_repaint());
         let load_wake = ctx.clone();
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
         let first = match project.volume.path.as_slice() {
@@ -137,7 +144,9 @@ impl App {
             picture: Picture::new([1, 1]),
             meter: Meter::default(),
             told: None,
-            accuracy: Accuracy::new(Arc::new(move || study_wake.request_repaint())),
+            maps: Maps::new(Arc::clone(&study_wake)),
+            accuracy: Accuracy::new(study_wake),
+            snapshots: Snapshots::new(ctx),
             canvas: Canvas::new(creation.wgpu_render_state.clone()),
             canvas_size: None,
             submitted: None,
@@ -246,113 +255,5 @@ impl App {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.title = title;
         }
-    }
-}
-
-impl eframe::App for App {
-    fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        self.recent.save(storage);
-    }
-
-    fn on_exit(&mut self) {
-        // Without a device the window did not end by itself.
-        if self.lost.words().is_none() {
-            self.autosave.end();
-        }
-        self.lost.end();
-    }
-
-    fn persist_egui_memory(&self) -> bool {
-        false
-    }
-
-    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
-        self.receive();
-        self.read_what_is_lacking();
-        self.exporter.poll();
-        if self.lost.words().is_some() && self.closing != Closing::Now {
-            self.closing = Closing::AfterExport;
-        }
-        // A hidden window can be closed as well.
-        self.guard_the_export(ctx);
-        self.drain();
-        self.look();
-        self.retitle(ctx);
-        // A hidden window draws nothing, yet what was loaded begins to render.
-        self.follow();
-        if self.loader.loading().is_some() {
-            ctx.request_repaint_after(LOADING_FRAME);
-        }
-        self.keep_what_is_set(ctx);
-    }
-
-    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
-        let ctx = ui.ctx().clone();
-        self.take_drops(&ctx);
-        let mut commands = self.take_keys(&ctx);
-
-        // Panels change the document, and ask for what they cannot do themselves.
-        let before = self.document.project.clone();
-        let carried = self.engine.scene();
-        let carried = carried.map(|packed| packed.plan.wavelengths());
-        self.document.carried = carried;
-        let job = self.document.last_job();
-        self.told = job.and_then(|job| self.accuracy.told(job, carried));
-        panels::status(ui, self, &mut commands);
-        let flaws: Vec<String> = self.flaws().into_iter().map(String::from).collect();
-        self.panels.show(
-            ui,
-            &mut self.document,
-            self.told.as_ref(),
-            &self.recent,
-            &flaws,
-            &mut commands,
-        );
-
-        // The picture has all the space that is left.
-        let canvas = ui.available_rect_before_wrap();
-        let view = self.view();
-        let camera = self.document.last_job().map(|job| job.camera);
-        let shown = self.canvas.show(
-            ui,
-            &self.picture,
-            &view,
-            camera,
-            !self.panels.export.is_open(),
-        );
-        self.canvas_size = Some(shown.size);
-        let job = self.document.last_job();
-        if self.plots.shows_accuracy()
-            && let Some(job) = job
-        {
-            let is_done = self.picture.progress.finished;
-            let packed = if is_done { self.engine.scene() } else { None };
-            self.accuracy.measure(job, packed);
-        }
-        let about = plots::Shown {
-            job,
-            view: &view,
-            accuracy: &self.accuracy,
-            told: self.told.as_ref(),
-        };
-        self.plots
-            .show(&ctx, &self.engine, &about, &shown.place, &mut commands);
-        panels::overlay(ui, self, canvas, &mut commands);
-        let size = self.document.fixed_size.unwrap_or(shown.size);
-        self.panels
-            .export
-            .show(&ctx, &self.document, &self.exporter, size, &mut commands);
-
-        if let Some(camera) = &shown.camera {
-            self.document.move_camera(camera);
-        }
-        if shown.frame_all {
-            self.frame_all();
-        }
-        self.document
-            .remember(before, hands::is_held(&ctx) || shown.scrolling);
-        self.obey(commands);
-        self.read_what_is_lacking();
-        self.follow();
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::{App, Document};
+use super::{App, Document, maps};
 use crate::engine::picture::Progress;
 use crate::engine::{Generation, Picture};
 use crate::project::Job;
@@ -106,6 +106,29 @@ impl App {
         let is_fine = is_newest && !failed && whole.any(|pass| pass.stride == 1);
         let packed = if is_fine { self.engine.scene() } else { None };
         self.accuracy.follow(&submitted.job, packed, is_fine);
+    }
+
+    /// The map on show as a picture of its own, with what it is of taken in.
+    pub(super) fn map(&mut self, ctx: &egui::Context) -> Option<egui::TextureId> {
+        let submitted = self.submitted.as_ref()?;
+        let is_of_it = self.document.last_job() == Some(&submitted.job) && self.shows_newest();
+        let about = maps::About {
+            picture: &self.picture,
+            job: is_of_it.then_some(&submitted.job),
+            pilot: self.accuracy.pilot(&submitted.job),
+            packed: self.engine.scene().filter(|_| is_of_it),
+        };
+        self.maps.follow(&about);
+        self.maps.texture(ctx, &about)
+    }
+
+    /// Says what was measured of the picture on show in place of what is expected of it.
+    pub(super) fn tell_measured(&mut self) {
+        let shows_newest = self.shows_newest() && self.picture.progress.finished;
+        if let (Some(told), Some(submitted)) = (&mut self.told, &self.submitted) {
+            let measured = self.maps.measured(&submitted.job, &self.picture);
+            told.measured = measured.filter(|_| shows_newest);
+        }
     }
 
     /// The document's job for a canvas, with the numbers that its quality comes to if the scene was looked at.

@@ -30,8 +30,8 @@ const LATEST_WHITE: i32 = 5;
 /// What is shown closer to 1 than this is white.
 const NEARLY_WHITE: f64 = 1.0 / 256.0;
 
-/// sRGB colours of the stops, from the first on.
-const STOPS: [[u8; 3]; 14] = [
+/// sRGB colours of the stops, from the first on: six cold ones, grey, and seven warm ones, each lighter than the one before.
+pub const STOPS: [[u8; 3]; 14] = [
     [0x2d, 0x01, 0x4c],
     [0x31, 0x15, 0x68],
     [0x2d, 0x2c, 0x80],
@@ -48,7 +48,7 @@ const STOPS: [[u8; 3]; 14] = [
     [0xff, 0xf4, 0x91],
 ];
 /// sRGB colour of black.
-const BLACK: [u8; 3] = [0x0f, 0x00, 0x1a];
+pub const BLACK: [u8; 3] = [0x0f, 0x00, 0x1a];
 /// sRGB colour of white.
 const WHITE: [u8; 3] = [0xfe, 0x2f, 0xbc];
 

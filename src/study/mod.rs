@@ -15,6 +15,7 @@
 
 mod aim;
 mod chart;
+mod compared;
 mod front;
 mod numbers;
 mod pilot;
@@ -26,6 +27,7 @@ mod variant;
 
 pub use aim::{Aim, aim};
 pub use chart::{Chart, ChartError};
+pub use compared::{apart, is_the_reference, measured, render_reference};
 pub use numbers::{Numbers, RAYS, STEPS};
 pub use pilot::{Choice, Pilot, Split};
 pub use report::{Point, REFERENCE, Report, Status, report};

@@ -199,6 +199,11 @@ impl Pilot {
         self.own
     }
 
+    /// How different two colours, X, Y, Z in W m⁻² sr⁻¹, look to the eye that errors are told for, ΔE_ITP.
+    pub fn apart(&self, one: [f64; 3], other: [f64; 3]) -> f64 {
+        self.sight.apart(one, other)
+    }
+
     /// The error that a picture with these numbers has, by its causes.
     pub fn error(&self, numbers: Numbers) -> Split {
         let (step, set, rays) = self.tried(numbers);

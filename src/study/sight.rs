@@ -102,6 +102,12 @@ impl Sight {
             .collect()
     }
 
+    /// How different two colours look, ΔE_ITP.
+    pub(super) fn apart(&self, one: [f64; 3], other: [f64; 3]) -> f64 {
+        let [one, other] = [one, other].map(|xyz| xyz.map(|value| self.exposure * value));
+        itp::delta_e(one, other)
+    }
+
     /// Which pixels are lit in at least one of these pictures.
     pub(super) fn lit(&self, pictures: &[&[[f64; 3]]]) -> Vec<bool> {
         let lit = |i: usize| pictures.iter().any(|picture| picture[i][1] > self.darkest);

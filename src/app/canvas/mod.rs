@@ -7,21 +7,26 @@ mod buttons;
 mod display;
 mod moves;
 mod placement;
+mod sheet;
+mod wipe;
 
 use std::time::Duration;
 
-use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, wgpu};
+use eframe::egui_wgpu::RenderState;
 use egui::{
-    Color32, InputState, Label, Pos2, Rect, Response, Role, Sense, Shape, Ui, WidgetInfo, vec2,
+    Color32, InputState, Label, Pos2, Rect, Response, Role, Sense, Shape, TextureId, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 pub(super) use self::buttons::place as buttons_place;
 pub use self::display::Display;
 pub use self::placement::Mapping;
+pub(super) use self::wipe::Beside;
 
 use self::moves::{Moves, Space};
 use self::placement::Sizes;
-use crate::colour::display::{BakedView, View};
+use self::sheet::{Content, Sheet};
+use crate::colour::display::View;
 use crate::engine::Picture;
 use crate::scene::Camera;
 
@@ -41,11 +46,19 @@ const SCROLL_END: Duration = Duration::from_millis(50);
 pub(super) struct Canvas {
     /// `None` where nothing is drawn: a test without a graphics card.
     state: Option<RenderState>,
-    /// What the graphics card has: which film, which view, where on the canvas.
-    uploaded: Option<u64>,
-    view: Option<View>,
-    mapping: Option<Mapping>,
+    /// The picture on show, and the one that it is compared with.
+    sheet: Sheet,
+    beside: Sheet,
     moves: Moves,
+}
+
+/// What lies over the picture.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Over<'a> {
+    /// A map of it.
+    pub(super) map: Option<TextureId>,
+    /// A snapshot.
+    pub(super) beside: Option<Beside<'a>>,
 }
 
 /// What came of a frame of the canvas.
@@ -59,6 +72,8 @@ pub(super) struct Shown {
     pub(super) frame_all: bool,
     /// Whether a scroll over the picture still runs: its frames belong together.
     pub(super) scrolling: bool,
+    /// Where a hand moved the line between the snapshot and the picture, as a share of the picture's width.
+    pub(super) wiped: Option<f32>,
     /// Where the picture lies on the screen, and where on it the pointer is.
     pub(super) place: PicturePlace,
 }
@@ -99,15 +114,10 @@ impl PicturePlace {
 impl Canvas {
     /// A canvas that draws with egui's own device.
     pub(super) fn new(state: Option<RenderState>) -> Self {
-        if let Some(state) = &state {
-            let display = Display::new(&state.device, state.target_format);
-            state.renderer.write().callback_resources.insert(display);
-        }
         Self {
             state,
-            uploaded: None,
-            view: None,
-            mapping: None,
+            sheet: Sheet::new(0),
+            beside: Sheet::new(1),
             moves: Moves::default(),
         }
     }
@@ -120,6 +130,7 @@ impl Canvas {
         picture: &Picture,
         view: &View,
         camera: Option<Camera>,
+        over: &Over<'_>,
         keys: bool,
     ) -> Shown {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
@@ -130,8 +141,8 @@ impl Canvas {
         let film = if ready { picture.film().size() } else { canvas };
         let sizes = Sizes { film, canvas };
         ui.painter().rect_filled(rect, 0.0, BESIDE);
-        // The picture lies below the buttons and yet is where they put it in this frame.
-        let below = ui.painter().add(Shape::Noop);
+        // The picture and what is over it lie below the buttons, and yet are where those put them in this frame.
+        let below = [(); 4].map(|()| ui.painter().add(Shape::Noop));
         let zoom = self.moves.placement.mapping(sizes).zoom;
         let pressed = buttons::show(ui, rect, zoom, self.moves.placement.is_fit());
 
@@ -151,22 +162,6 @@ impl Canvas {
         if mapping.zoom != zoom {
             ui.ctx().request_repaint();
         }
-        let longest = self.longest_side();
-        if film.iter().any(|&side| side > longest) {
-            let words = format!(
-                "The picture is too large to be shown: a side may have {longest} pixels on this graphics card. It \
-                 can still be rendered to a file."
-            );
-            ui.put(rect.shrink(GAP), Label::new(words).wrap());
-        } else if self.prepare(ready.then_some(picture), view, mapping) {
-            let paint = egui_wgpu::Callback::new_paint_callback(rect, Paint);
-            ui.painter().set(below, paint);
-        }
-
-        let scrolling = response.contains_pointer() && ui.input(InputState::is_scrolling);
-        if scrolling {
-            ui.ctx().request_repaint_after(SCROLL_END);
-        }
         let in_points = |length: f64| length / f64::from(ui.pixels_per_point());
         let place = PicturePlace::new(
             rect,
@@ -174,8 +169,33 @@ impl Canvas {
             film.map(|side| in_points(mapping.zoom * f64::from(side))),
             &response,
         );
+        let longest = self.longest_side();
+        if film.iter().any(|&side| side > longest) {
+            let words = format!(
+                "The picture is too large to be shown: a side may have {longest} pixels on this graphics card. It \
+                 can still be rendered to a file."
+            );
+            ui.put(rect.shrink(GAP), Label::new(words).wrap());
+        } else if ready {
+            let content = Content {
+                version: picture.version,
+                film: picture.film(),
+                strides: picture.strides(),
+                view,
+                mapping,
+            };
+            self.draw(ui, below, &place, &content, over);
+        }
+        let beside = over.beside.filter(|_| ready);
+        let wiped = beside.and_then(|beside| wipe::show(ui, rect, place.picture, &beside));
+
+        let scrolling = response.contains_pointer() && ui.input(InputState::is_scrolling);
+        if scrolling {
+            ui.ctx().request_repaint_after(SCROLL_END);
+        }
         Shown {
             place,
+            wiped,
             size: canvas,
             camera: moved.filter(|moved| camera != Some(*moved) && moved.view([1, 1]).is_ok()),
             frame_all,
@@ -190,34 +210,47 @@ impl Canvas {
         })
     }
 
-    /// Brings to the graphics card what it does not have yet. False if there is nothing to draw, or nothing to draw
-    /// with.
-    fn prepare(&mut self, picture: Option<&Picture>, view: &View, mapping: Mapping) -> bool {
-        let (Some(state), Some(picture)) = (&self.state, picture) else {
-            return false;
+    /// Draws the picture, a map of it, and the snapshot that it is compared with, in the places `below`.
+    fn draw(
+        &mut self,
+        ui: &Ui,
+        below: [egui::layers::ShapeIdx; 4],
+        place: &PicturePlace,
+        content: &Content<'_>,
+        over: &Over<'_>,
+    ) {
+        let canvas = place.canvas;
+        let line = over
+            .beside
+            .map(|beside| wipe::line_x(canvas, place.picture, &beside));
+        let [mut left, mut right] = [canvas; 2];
+        (left.max.x, right.min.x) = line.map_or((canvas.min.x, canvas.min.x), |x| (x, x));
+        let painter = |clip: Rect| ui.painter().with_clip_rect(clip);
+        if let Some(map) = over.map {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            let image = Shape::image(map, place.picture, whole, Color32::WHITE);
+            painter(right).set(below[1], image);
+        }
+        let Some(state) = &self.state else { return };
+        if let Some(shape) = self.sheet.prepare(state, canvas, content) {
+            ui.painter().set(below[0], shape);
+        }
+        let Some(beside) = &over.beside else { return };
+        // A snapshot of another shape leaves room beside it.
+        let ground = Shape::rect_filled(left, 0.0, BESIDE);
+        painter(left).set(below[2], ground);
+        let content = Content {
+            version: beside.number,
+            film: beside.film,
+            strides: beside.strides,
+            view: beside.view,
+            mapping: content
+                .mapping
+                .for_another(content.film.size(), beside.film.size()),
         };
-        let mut renderer = state.renderer.write();
-        let Some(display) = renderer.callback_resources.get_mut::<Display>() else {
-            return false;
-        };
-        if self.uploaded != Some(picture.version) {
-            display.upload(
-                &state.device,
-                &state.queue,
-                picture.film(),
-                picture.strides(),
-            );
-            self.uploaded = Some(picture.version);
+        if let Some(shape) = self.beside.prepare(state, canvas, &content) {
+            painter(left).set(below[3], shape);
         }
-        if self.view != Some(*view) {
-            display.set_view(&state.queue, &BakedView::new(view));
-            self.view = Some(*view);
-        }
-        if self.mapping != Some(mapping) {
-            display.set_mapping(&state.queue, &mapping);
-            self.mapping = Some(mapping);
-        }
-        true
     }
 }
 
@@ -228,20 +261,4 @@ fn snapped(rect: Rect, pixels_per_point: f32) -> (Rect, [u32; 2]) {
     let size = [0, 1].map(|axis| ((high[axis] - low[axis]) as u32).clamp(1, LONGEST_SIDE));
     let point = |at: [f32; 2]| Pos2::new(at[0], at[1]) / pixels_per_point;
     (Rect::from_min_max(point(low), point(high)), size)
-}
-
-/// Draws the [`Display`] that waits among egui's resources.
-struct Paint;
-
-impl CallbackTrait for Paint {
-    fn paint(
-        &self,
-        _: egui::PaintCallbackInfo,
-        pass: &mut wgpu::RenderPass<'static>,
-        resources: &CallbackResources,
-    ) {
-        if let Some(display) = resources.get::<Display>() {
-            display.paint(pass);
-        }
-    }
 }

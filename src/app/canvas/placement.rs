@@ -29,6 +29,22 @@ pub struct Mapping {
     pub canvas: [u32; 2],
 }
 
+impl Mapping {
+    /// Where a film of another size lies that is seen in the place of this one: as large as fits, in the middle.
+    pub(super) fn for_another(self, this: [u32; 2], other: [u32; 2]) -> Self {
+        let [this, other] = [this, other].map(|size| size.map(f64::from));
+        let [across, down] = [0, 1].map(|axis| this[axis] / other[axis]);
+        let zoom = self.zoom * across.min(down);
+        let corner = [0, 1]
+            .map(|axis| self.corner[axis] + 0.5 * (self.zoom * this[axis] - zoom * other[axis]));
+        Self {
+            zoom,
+            corner,
+            ..self
+        }
+    }
+}
+
 /// The sizes that a placement is about: film and canvas, in their own pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sizes {
@@ -248,6 +264,21 @@ mod tests {
         assert_eq!(smaller.zoom, 1.0 / 64.0);
         let larger = Placement::FIT.stepped(true, at, sizes).mapping(sizes);
         assert_eq!(larger.zoom, 1.0 / 32.0);
+    }
+
+    #[test]
+    fn another_film_fills_the_place_of_this_one_as_far_as_it_goes() {
+        let mapping = Mapping {
+            zoom: 2.0,
+            corner: [10.0, 20.0],
+            canvas: [800, 600],
+        };
+        // The same picture with half as many pixels lies in the same place.
+        let half = mapping.for_another([100, 60], [50, 30]);
+        assert_eq!((half.zoom, half.corner), (4.0, mapping.corner));
+        // A square in the middle of it.
+        let square = mapping.for_another([100, 60], [60, 60]);
+        assert_eq!((square.zoom, square.corner), (2.0, [50.0, 20.0]));
     }
 
     #[test]

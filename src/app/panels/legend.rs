@@ -1,4 +1,4 @@
-//! The legend of false colours, over the lower right corner of the picture, above the buttons where it is narrow.
+//! The legend of false colours and of maps, over the lower right corner of the picture, above the buttons where it is narrow.
 
 use egui::{
     Align, Color32, Frame, Label, Layout, Margin, Rect, RichText, Sense, Ui, UiBuilder, vec2,
@@ -10,6 +10,14 @@ use crate::colour::cie::MAX_LUMINOUS_EFFICACY;
 use crate::colour::display::View;
 use crate::colour::false_colour::{Band, Level};
 
+/// A legend.
+pub(super) struct Legend {
+    /// What stands above, if something does.
+    pub(super) title: Option<String>,
+    /// Colours and what they stand for, the least first.
+    pub(super) rows: Vec<(Color32, String)>,
+}
+
 /// Gap to the edges of the canvas, points.
 const GAP: f32 = 8.0;
 /// Greatest and least height of a row, points.
@@ -19,14 +27,38 @@ const WORDS: f32 = 0.72;
 /// Widths of a patch of colour and of all, for the height of a row.
 const PATCH: f32 = 1.6;
 const WIDTH: f32 = 10.5;
+/// Width with a title, which is wrapped.
+const TITLED: f32 = 15.0;
+/// Lines of a title, and of it what counts as a row.
+const TITLE_ROWS: f32 = 2.5;
 
-/// Draws it: what each colour stands for, the brightest on top.
-pub(super) fn show(ui: &mut Ui, view: &View, canvas: Rect) {
-    let bands = view.bands();
-    let rows = bands.len() as f32;
+impl Legend {
+    /// That of false colours.
+    pub(super) fn of(view: &View) -> Self {
+        let bands = view.bands();
+        let white_cd_m2 = MAX_LUMINOUS_EFFICACY / view.exposure;
+        let rows = bands.iter().enumerate().map(|(i, band)| {
+            let end = bands.get(i + 1).map_or(f64::INFINITY, |next| next.from);
+            let [r, g, b] = band.srgb;
+            (Color32::from_rgb(r, g, b), words(band, end, white_cd_m2))
+        });
+        Self {
+            title: None,
+            rows: rows.collect(),
+        }
+    }
+}
+
+/// Draws it: what each colour stands for, the most on top.
+pub(super) fn show(ui: &mut Ui, legend: &Legend, canvas: Rect) {
+    let (title_rows, width) = match &legend.title {
+        Some(_) => (TITLE_ROWS, TITLED),
+        None => (0.0, WIDTH),
+    };
+    let rows = legend.rows.len() as f32 + title_rows;
     let place = |space: Rect| {
         let row = (space.height() / (rows + 1.0)).clamp(ROW[0], ROW[1]);
-        let size = vec2(row * WIDTH, row * (rows + 0.5));
+        let size = vec2(row * width, row * (rows + 0.5));
         (row, Rect::from_min_size(space.max - size, size))
     };
     let mut space = canvas.shrink(GAP);
@@ -47,19 +79,20 @@ pub(super) fn show(ui: &mut Ui, view: &View, canvas: Rect) {
             .show(ui, |ui| {
                 ui.spacing_mut().item_spacing = vec2(0.4 * row, 0.0);
                 ui.spacing_mut().interact_size.y = row;
-                for (i, band) in bands.iter().enumerate().rev() {
-                    let end = bands.get(i + 1).map_or(f64::INFINITY, |next| next.from);
-                    let words = words(band, end, MAX_LUMINOUS_EFFICACY / view.exposure);
+                let text = |words: &str| {
+                    let text = RichText::new(words).size(WORDS * row);
+                    text.color(Color32::from_gray(235))
+                };
+                if let Some(title) = &legend.title {
+                    ui.set_width((width - 1.0) * row);
+                    ui.add(Label::new(text(title)).selectable(false).wrap());
+                }
+                for (colour, words) in legend.rows.iter().rev() {
                     ui.horizontal(|ui| {
                         let (patch, _) =
                             ui.allocate_exact_size(vec2(PATCH * row, row), Sense::hover());
-                        let [r, g, b] = band.srgb;
-                        ui.painter()
-                            .rect_filled(patch, 0.0, Color32::from_rgb(r, g, b));
-                        let text = RichText::new(words)
-                            .size(WORDS * row)
-                            .color(Color32::from_gray(235));
-                        ui.add(Label::new(text).selectable(false).extend());
+                        ui.painter().rect_filled(patch, 0.0, *colour);
+                        ui.add(Label::new(text(words)).selectable(false).extend());
                     });
                 }
             });

@@ -3,6 +3,7 @@
 
 mod air;
 mod camera;
+mod compare;
 mod effects;
 mod export;
 mod file;
@@ -27,7 +28,9 @@ pub(super) use status::status;
 use super::Document;
 use super::accuracy::Told;
 use super::exporter::Wish;
+use super::maps::Map;
 use super::recent::Recent;
+use super::snapshots::{Snapshots, Way};
 use crate::project::{Control, Job, Mend, Preset, why_idle};
 use crate::render::Facts;
 use crate::render::costs::Cost;
@@ -64,6 +67,18 @@ pub(super) enum Command {
     ToggleAccuracy,
     /// Render with these numbers from here on.
     Adopt(Numbers),
+    /// Show a map over the picture, or take it away.
+    ToggleMap(Map),
+    /// Keep the picture with all that is set.
+    GrabSnapshot,
+    /// Compare the picture with a snapshot this way, or no more.
+    Compare(Way),
+    /// Compare with the snapshot of this number.
+    CompareWith(u64),
+    /// Set what was set when the snapshot of this number was grabbed.
+    RestoreSnapshot(u64),
+    /// Throw the snapshot of this number away.
+    ForgetSnapshot(u64),
     /// Take the notice away.
     Dismiss,
     /// Open and set what was in a window that did not end by itself.
@@ -103,6 +118,17 @@ pub(super) struct Panels {
     stage: stage::StagePanel,
 }
 
+/// What the controls show beside the document.
+#[derive(Clone, Copy)]
+pub(super) struct Beside<'a> {
+    /// What is said of the picture's error.
+    pub(super) told: Option<&'a Told>,
+    /// The map over the picture.
+    pub(super) map: Option<Map>,
+    pub(super) snapshots: &'a Snapshots,
+    pub(super) recent: &'a Recent,
+}
+
 /// What is known of the picture that the controls change.
 #[derive(Clone, Copy)]
 struct Known<'a> {
@@ -130,8 +156,7 @@ impl Panels {
         &mut self,
         ui: &mut Ui,
         document: &mut Document,
-        told: Option<&Told>,
-        recent: &Recent,
+        beside: &Beside<'_>,
         flaws: &[String],
         commands: &mut Vec<Command>,
     ) {
@@ -149,7 +174,7 @@ impl Panels {
                     Frame::new().inner_margin(MARGIN).show(ui, |ui| {
                         // Whatever a row says, the panel is as wide as it is.
                         ui.set_max_width(width - 2.0 * f32::from(MARGIN));
-                        self.file.show(ui, document, recent, commands);
+                        self.file.show(ui, document, beside.recent, commands);
                         let recognised = document.recognised().cloned();
                         let automatic_half = document.automatic_half_saturation_cd_m2();
                         let decisions = document.decisions.clone();
@@ -164,7 +189,8 @@ impl Panels {
                         };
                         fire::show(ui, project, known, commands);
                         view::show(ui, project, automatic_half, commands);
-                        quality::show(ui, project, known, told);
+                        compare::show(ui, beside.snapshots, commands);
+                        quality::show(ui, project, known, beside, commands);
                         fire::heat_and_smoke(ui, project, known);
                         air::show(ui, project, known);
                         self.stage.show(ui, project, known);

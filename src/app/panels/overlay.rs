@@ -5,7 +5,8 @@ use egui::{
     StrokeKind, Ui, vec2,
 };
 
-use super::{Command, legend};
+use super::Command;
+use super::legend::{self, Legend};
 use crate::app::opening::is_picture;
 use crate::app::theme::ERROR;
 use crate::app::{App, Closing};
@@ -16,10 +17,15 @@ const LINE: f32 = 30.0;
 /// Widest note in points.
 const NOTE_WIDTH: f32 = 520.0;
 
-/// Draws the legend of false colours, notes in the corner of the picture, and the drop target while files hover.
+/// Draws the legend of the colours on show, notes in the corner of the picture, and the drop target while files hover.
 pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
-    if app.view().false_colour && app.document.metering.is_some() {
-        legend::show(ui, &app.view(), canvas);
+    let of_map = app.maps.legend().map(|(title, rows)| Legend {
+        title: Some(title),
+        rows,
+    });
+    let of_light = app.view().false_colour && app.document.metering.is_some();
+    if let Some(legend) = of_map.or_else(|| of_light.then(|| Legend::of(&app.view()))) {
+        legend::show(ui, &legend, canvas);
     }
     notes(ui, app, canvas, commands);
     if app.closing == Closing::Asked {

@@ -5,8 +5,9 @@ use std::cmp::Ordering;
 use egui::{Button, RichText, Ui};
 
 use super::knob::{Choice, Knob};
-use super::{Known, section, short, unit};
+use super::{Beside, Command, Known, section, short, unit};
 use crate::app::accuracy::Told;
+use crate::app::maps::Map;
 use crate::app::theme::IDLE;
 use crate::project::{Project, Quality, RenderSettings, ranges};
 use crate::render::{Effects, Switch};
@@ -17,13 +18,20 @@ use crate::study::{Numbers, RAYS, STEPS};
 const ORDERS: [u32; 5] = [1, 2, 4, 16, 64];
 
 /// Draws the section.
-pub(super) fn show(ui: &mut Ui, project: &mut Project, known: Known<'_>, told: Option<&Told>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    project: &mut Project,
+    known: Known<'_>,
+    beside: &Beside<'_>,
+    commands: &mut Vec<Command>,
+) {
     section(ui, "Quality", true, |ui| {
         let render = &mut project.render;
         wished(ui, render);
-        if let Some(told) = told {
+        if let Some(told) = beside.told {
             by_cause(ui, render, &mut project.effects, known, told);
         }
+        maps(ui, beside.map, commands);
         // What is not set by hand is as chosen, or as for a scene that nobody has looked at yet.
         let here = known.job.map(|job| Numbers::of(&job.settings));
         step(ui, render, here);
@@ -31,6 +39,30 @@ pub(super) fn show(ui: &mut Ui, project: &mut Project, known: Known<'_>, told: O
         rays(ui, render, here);
         between_voxels(ui, &mut render.interpolation);
         orders(ui, &mut render.scattering_orders);
+    });
+}
+
+/// What may be laid over the picture.
+fn maps(ui: &mut Ui, shown: Option<Map>, commands: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("map of").color(IDLE));
+        for (map, words, tip) in [
+            (
+                Map::Cost,
+                "cost per pixel",
+                "How many samples of the fire each pixel took so far. Key: K",
+            ),
+            (
+                Map::Error,
+                "error per pixel",
+                "How far each pixel is from the reference, which is rendered in the background: that takes its time. Key: E",
+            ),
+        ] {
+            let button = Button::selectable(shown == Some(map), words).small();
+            if ui.add(button).on_hover_text(tip).clicked() {
+                commands.push(Command::ToggleMap(map));
+            }
+        }
     });
 }
 

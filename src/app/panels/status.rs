@@ -115,7 +115,8 @@ fn rendering(ui: &mut Ui, app: &App) {
         let label = ui.add(Label::new(accuracy).truncate());
         label.on_hover_text(
             "How far this picture is expected to be from the finest one: 95 % of what is lit are nearer than so many ΔE, of \
-             which 1 is just seen. Measured on a part of this scene, against our own reference and not a real fire.",
+             which 1 is just seen. Predicted from a part of this scene; measured once the map of errors (E) is whole. Against our \
+             own reference, and not a real fire.",
         );
     });
     for (words, width) in cells(progress, since) {
@@ -144,7 +145,11 @@ fn accuracy_words(told: Option<&Told>, progress: &Progress) -> String {
     } else {
         told.here.cpu_s / threads
     };
-    let here = short_de(told.here.error.all.de95);
+    let (error, how) = match told.measured {
+        Some(error) => (error, "measured"),
+        None => (told.here.error.all, "predicted"),
+    };
+    let here = short_de(error.de95);
     let next = told.next.map_or_else(
         || "nothing finer".to_owned(),
         |next| {
@@ -155,10 +160,7 @@ fn accuracy_words(told: Option<&Told>, progress: &Progress) -> String {
             )
         },
     );
-    format!(
-        "error {here} ΔE (95 %), predicted · {} · {next}",
-        seconds(took)
-    )
+    format!("error {here} ΔE (95 %), {how} · {} · {next}", seconds(took))
 }
 
 /// Seconds in two figures.
@@ -334,6 +336,7 @@ mod tests {
         let mut told = Told {
             here: choice(0.43, 0.8 * threads),
             next: Some(choice(0.112, 3.0 * threads)),
+            measured: None,
         };
         let running = Progress::default();
         assert_eq!(
@@ -350,6 +353,11 @@ mod tests {
             accuracy_words(Some(&told), &done),
             "error 0.43 ΔE (95 %), predicted · 2.0 s · next 0.11 ΔE in 4.2 s"
         );
+        told.measured = Some(Error {
+            de95: 0.38,
+            ..Error::default()
+        });
+        assert!(accuracy_words(Some(&told), &done).starts_with("error 0.38 ΔE (95 %), measured"));
         told.next = None;
         assert!(accuracy_words(Some(&told), &done).ends_with("nothing finer"));
         assert_eq!(accuracy_words(None, &done), "error … ΔE (95 %)");

@@ -1,0 +1,219 @@
+//! The picture on show against the reference of its scene, which is rendered behind it as soon as somebody wants to know.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::About;
+use crate::app::accuracy::view_of;
+use crate::app::background::{Ended, Rank, Running, Wake};
+use crate::engine::Picture;
+use crate::project::Job;
+use crate::render::{Film, Tile};
+use crate::study::{self, Error};
+
+/// The reference, as far as it is, and what the comparison with the picture has found.
+pub(super) struct Against {
+    wake: Wake,
+    reference: Option<Reference>,
+    comparing: Option<Running<Found>>,
+    found: Option<Found>,
+    /// When the last comparison began.
+    compared: Option<Instant>,
+    /// Rises with what was found.
+    version: u64,
+}
+
+/// While the reference comes in, the picture is compared with it this often.
+const AGAIN: Duration = Duration::from_millis(500);
+
+struct Reference {
+    /// What it shows, whatever its numbers.
+    view: Job,
+    film: Arc<Film>,
+    /// Which of its pixels are there, row by row.
+    known: Arc<Vec<bool>>,
+    pixels: usize,
+    rendering: Option<Running<Tile>>,
+    /// Whether it ended before it was whole.
+    failed: bool,
+}
+
+impl Reference {
+    fn is_whole(&self) -> bool {
+        self.pixels == self.known.len()
+    }
+
+    fn take(&mut self, tile: &Tile) {
+        let width = self.film.size()[0] as usize;
+        let known = Arc::make_mut(&mut self.known);
+        let [left, top] = tile.origin.map(|side| side as usize);
+        let [across, down] = tile.size.map(|side| side as usize);
+        for row in known.chunks_mut(width).skip(top).take(down) {
+            row[left..left + across].fill(true);
+        }
+        self.pixels += tile.pixels.len();
+        Arc::make_mut(&mut self.film).merge(tile);
+    }
+}
+
+/// A comparison.
+struct Found {
+    of: Compared,
+    /// ΔE of each pixel.
+    apart: Vec<f32>,
+    /// That of the whole picture, if all of the reference was there.
+    error: Option<Error>,
+}
+
+/// What was compared: which state of the picture, and how many pixels of the reference were there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Compared {
+    picture: u64,
+    pixels: usize,
+    /// Whether that was all of both.
+    is_whole: bool,
+}
+
+impl Against {
+    pub(super) fn new(wake: Wake) -> Self {
+        Self {
+            wake,
+            reference: None,
+            comparing: None,
+            found: None,
+            compared: None,
+            version: 0,
+        }
+    }
+
+    /// Which state of the map there is.
+    pub(super) fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// ΔE of each pixel, not a number where there is no reference yet, if they are of a picture as large as this.
+    pub(super) fn values(&self, picture: &Picture) -> Option<&[f32]> {
+        let apart = &self.found.as_ref()?.apart;
+        (apart.len() == picture.film().pixels().len()).then_some(apart)
+    }
+
+    /// How far the whole picture of a job is from the reference, if that was measured.
+    pub(super) fn measured(&self, job: &Job, picture: &Picture) -> Option<Error> {
+        let reference = self.reference.as_ref()?;
+        let found = self.found.as_ref()?;
+        let is_of_it = found.of.picture == picture.version && reference.view == view_of(job);
+        found.error.filter(|_| is_of_it)
+    }
+
+    /// How far the reference is, in words.
+    pub(super) fn progress_words(&self) -> String {
+        match &self.reference {
+            None => "the reference waits for the picture".to_owned(),
+            Some(reference) if reference.is_whole() => "measured".to_owned(),
+            Some(reference) if reference.failed => "the reference failed".to_owned(),
+            Some(reference) => {
+                let share = reference.pixels as f64 / reference.known.len().max(1) as f64;
+                format!("{:.0} % of the reference is there", (100.0 * share).floor())
+            }
+        }
+    }
+
+    /// Takes in what has come. Begins to render the reference where it is wanted, once the picture is whole, and to compare
+    /// what there is of it with the picture.
+    pub(super) fn follow(&mut self, about: &About<'_>, wanted: bool) {
+        self.receive();
+        let Some(job) = about.job else { return };
+        let view = view_of(job);
+        if self.reference.as_ref().is_some_and(|it| it.view != view) {
+            self.reference = None;
+            self.comparing = None;
+            self.found = None;
+            self.version += 1;
+        }
+        if self.reference.is_none()
+            && wanted
+            && about.picture.progress.finished
+            && about.pilot.is_some()
+        {
+            self.render(view, about);
+        }
+        self.compare(about);
+    }
+
+    fn render(&mut self, view: Job, about: &About<'_>) {
+        let Some(packed) = about.packed.clone() else {
+            // The engine was publishing at this very moment: ask again.
+            (self.wake)();
+            return;
+        };
+        let size = packed.settings.size;
+        let film = Film::new(size);
+        let rank = Rank::BehindThePicture;
+        let rendering = Running::begin("reference", rank, &self.wake, move |cancel, tell| {
+            let (scene, plan) = (&packed.scene, &packed.plan);
+            study::render_reference(scene, plan, &packed.settings, cancel, tell);
+        });
+        self.reference = Some(Reference {
+            view,
+            known: Arc::new(vec![false; film.pixels().len()]),
+            film: Arc::new(film),
+            pixels: 0,
+            failed: rendering.is_none(),
+            rendering,
+        });
+    }
+
+    fn receive(&mut self) {
+        if let Some(reference) = &mut self.reference {
+            while let Some(rendering) = &reference.rendering {
+                match rendering.next() {
+                    Ok(Some(tile)) => reference.take(&tile),
+                    Ok(None) => break,
+                    Err(Ended) => {
+                        reference.rendering = None;
+                        reference.failed = !reference.is_whole();
+                    }
+                }
+            }
+        }
+        match self.comparing.as_ref().map(Running::next) {
+            Some(Ok(Some(found))) => {
+                self.found = Some(found);
+                self.version += 1;
+                self.comparing = None;
+            }
+            Some(Err(Ended)) => self.comparing = None,
+            Some(Ok(None)) | None => {}
+        }
+    }
+
+    fn compare(&mut self, about: &About<'_>) {
+        let (Some(reference), Some(pilot)) = (&self.reference, about.pilot) else {
+            return;
+        };
+        let of = Compared {
+            picture: about.picture.version,
+            pixels: reference.pixels,
+            is_whole: reference.is_whole() && about.picture.progress.finished,
+        };
+        let is_done = self.found.as_ref().is_some_and(|found| found.of == of);
+        let is_soon = self.compared.is_some_and(|at| at.elapsed() < AGAIN) && !of.is_whole;
+        if is_done || is_soon || reference.pixels == 0 || self.comparing.is_some() {
+            return;
+        }
+        let picture = about.picture.film().clone();
+        let (film, known) = (Arc::clone(&reference.film), Arc::clone(&reference.known));
+        let pilot = Arc::clone(pilot);
+        self.compared = Some(Instant::now());
+        let rank = Rank::WithThePicture;
+        self.comparing = Running::begin("compare", rank, &self.wake, move |_, tell| {
+            let own = pilot.own_error();
+            let whole = of.is_whole.then(|| study::measured(&film, &picture, own));
+            tell(Found {
+                of,
+                apart: study::apart(&pilot, &film, &known, &picture),
+                error: whole.flatten(),
+            });
+        });
+    }
+}

@@ -1,0 +1,246 @@
+//! Snapshots: pictures as they were, with all that was set, to compare the picture on show with and to go back to.
+
+use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
+
+use super::document::Step;
+use crate::colour::display::{BakedView, View};
+use crate::engine::Picture;
+use crate::render::Film;
+
+/// Most that are kept: each holds a picture, and the volume that it is of.
+pub(super) const MOST: usize = 12;
+/// Longer side of a thumbnail, pixels.
+const THUMBNAIL: u32 = 160;
+
+/// Every snapshot, and how the picture is compared with one of them.
+pub(super) struct Snapshots {
+    ctx: Context,
+    all: Vec<Snapshot>,
+    /// Which one it is compared with.
+    chosen: u64,
+    newest: u64,
+    way: Way,
+    /// Share of the picture's width that a wipe shows of the snapshot.
+    share: f32,
+}
+
+/// A picture as it was.
+pub(super) struct Snapshot {
+    /// Its number, from 1.
+    pub(super) number: u64,
+    /// What was open.
+    pub(super) title: String,
+    pub(super) film: Film,
+    pub(super) strides: Vec<u8>,
+    pub(super) view: View,
+    /// All that was set.
+    pub(super) step: Step,
+    pub(super) thumbnail: TextureHandle,
+}
+
+/// How two pictures are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Way {
+    /// Only the picture on show is seen.
+    #[default]
+    Off,
+    /// The snapshot left of a line, the picture right of it.
+    Wipe,
+    /// Only the snapshot is seen.
+    Flip,
+}
+
+impl Snapshot {
+    /// "Snapshot 2".
+    pub(super) fn name(&self) -> String {
+        format!("Snapshot {}", self.number)
+    }
+}
+
+impl Snapshots {
+    pub(super) fn new(ctx: &Context) -> Self {
+        Self {
+            ctx: ctx.clone(),
+            all: Vec::new(),
+            chosen: 0,
+            newest: 0,
+            way: Way::default(),
+            share: 0.5,
+        }
+    }
+
+    /// Every snapshot, oldest first.
+    pub(super) fn all(&self) -> &[Snapshot] {
+        &self.all
+    }
+
+    /// Whether there is room for one more.
+    pub(super) fn is_full(&self) -> bool {
+        self.all.len() >= MOST
+    }
+
+    /// Keeps a picture with what is set, and compares with it from here on. Nothing if it is full.
+    pub(super) fn grab(&mut self, picture: &Picture, view: &View, title: String, step: Step) {
+        if self.is_full() {
+            return;
+        }
+        self.newest += 1;
+        let image = thumbnail(picture.film(), view);
+        let name = format!("snapshot {}", self.newest);
+        self.all.push(Snapshot {
+            number: self.newest,
+            title,
+            film: picture.film().clone(),
+            strides: picture.strides().to_vec(),
+            view: *view,
+            step,
+            thumbnail: self.ctx.load_texture(name, image, TextureOptions::LINEAR),
+        });
+        self.chosen = self.newest;
+    }
+
+    /// The one that the picture is compared with.
+    pub(super) fn chosen(&self) -> Option<&Snapshot> {
+        self.get(self.chosen)
+    }
+
+    /// The one with this number.
+    pub(super) fn get(&self, number: u64) -> Option<&Snapshot> {
+        self.all.iter().find(|snapshot| snapshot.number == number)
+    }
+
+    /// Compares with this one from here on.
+    pub(super) fn choose(&mut self, number: u64) {
+        if self.get(number).is_some() {
+            self.chosen = number;
+        }
+    }
+
+    /// Throws one away.
+    pub(super) fn forget(&mut self, number: u64) {
+        self.all.retain(|snapshot| snapshot.number != number);
+        if self.chosen == number {
+            self.chosen = self.all.last().map_or(0, |last| last.number);
+        }
+        if self.all.is_empty() {
+            self.way = Way::Off;
+        }
+    }
+
+    /// Compares this way, or no more if it is that.
+    pub(super) fn toggle(&mut self, way: Way) {
+        let is_it = self.way == way || self.all.is_empty();
+        self.way = if is_it { Way::Off } else { way };
+    }
+
+    /// Compares no more. True if it did.
+    pub(super) fn close(&mut self) -> bool {
+        std::mem::take(&mut self.way) != Way::Off
+    }
+
+    /// How pictures are compared.
+    pub(super) fn way(&self) -> Way {
+        self.way
+    }
+
+    /// Moves the line.
+    pub(super) fn wipe_to(&mut self, share: f32) {
+        self.share = share.clamp(0.0, 1.0);
+    }
+
+    /// What is seen of a snapshot: of which one, and how much of the picture's width from its left.
+    pub(super) fn seen(&self) -> Option<(&Snapshot, f32)> {
+        let share = match self.way {
+            Way::Off => return None,
+            Way::Wipe => self.share,
+            Way::Flip => 1.0,
+        };
+        Some((self.chosen()?, share))
+    }
+}
+
+/// A small picture of a film, each pixel the mean light of its block.
+fn thumbnail(film: &Film, view: &View) -> ColorImage {
+    let size = film.size();
+    let every = size[0].max(size[1]).div_ceil(THUMBNAIL).max(1);
+    let small = size.map(|side| side.div_ceil(every));
+    let view = BakedView::new(view);
+    let places = (0..small[1]).flat_map(|y| (0..small[0]).map(move |x| [x * every, y * every]));
+    let pixels = places.map(|[left, top]| {
+        let (mut sum, mut count) = ([0.0_f32; 3], 0.0);
+        for y in top..(top + every).min(size[1]) {
+            for x in left..(left + every).min(size[0]) {
+                let light = film.pixel(x, y).map_or([0.0; 3], |pixel| pixel.xyz);
+                // What is no number is black, as in the picture.
+                if light.iter().all(|value| value.is_finite()) {
+                    sum = std::array::from_fn(|c| sum[c] + light[c]);
+                }
+                count += 1.0;
+            }
+        }
+        let [r, g, b] = view.apply(sum.map(|value| value / f32::max(count, 1.0)));
+        let byte = |value: f32| (255.0 * value).round() as u8;
+        Color32::from_rgb(byte(r), byte(g), byte(b))
+    });
+    ColorImage::new(small.map(|side| side as usize), pixels.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::Document;
+    use crate::project::Project;
+
+    fn with(count: usize) -> Snapshots {
+        let mut all = Snapshots::new(&Context::default());
+        let document = Document::new(Project::default());
+        for _ in 0..count {
+            let picture = Picture::new([4, 2]);
+            all.grab(
+                &picture,
+                &document.view(),
+                document.title(),
+                document.step(),
+            );
+        }
+        all
+    }
+
+    #[test]
+    fn the_newest_is_compared_with_until_another_is_chosen() {
+        let mut all = with(3);
+        assert_eq!(
+            all.chosen().map(Snapshot::name).as_deref(),
+            Some("Snapshot 3")
+        );
+        assert!(all.seen().is_none());
+        all.toggle(Way::Wipe);
+        all.choose(1);
+        all.wipe_to(0.25);
+        assert_eq!(
+            all.seen().map(|(it, share)| (it.number, share)),
+            Some((1, 0.25))
+        );
+        all.toggle(Way::Flip);
+        assert_eq!(all.seen().map(|(_, share)| share), Some(1.0));
+        all.toggle(Way::Flip);
+        assert!(all.seen().is_none());
+    }
+
+    #[test]
+    fn what_is_thrown_away_is_compared_with_no_more() {
+        let mut all = with(2);
+        all.toggle(Way::Wipe);
+        all.forget(2);
+        assert_eq!(all.seen().map(|(it, _)| it.number), Some(1));
+        all.forget(1);
+        assert!(all.seen().is_none() && !all.close());
+    }
+
+    #[test]
+    fn there_are_so_many_and_no_more() {
+        let all = with(MOST + 1);
+        assert_eq!(all.all().len(), MOST);
+        assert!(all.is_full());
+    }
+}

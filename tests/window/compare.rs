@@ -1,0 +1,148 @@
+//! Maps over the picture, and snapshots to compare it with.
+
+use sootlight::project::Quality;
+
+use super::*;
+
+/// A window with a small picture of the torch and all of its controls in sight.
+fn small() -> Harness<'static, App> {
+    let mut project = Project::default();
+    project.set_all(["effects.scattering=off"]).unwrap();
+    project.render.quality = Quality::Draft;
+    let mut harness = Harness::builder()
+        .with_size([1200.0, 1600.0])
+        .build_eframe(|creation| App::new(creation, project).expect("the system gives threads"));
+    harness.state_mut().document_mut().fixed_size = Some([48, 48]);
+    settle(&mut harness);
+    harness
+}
+
+fn press(harness: &mut Harness<'_, App>, key: egui::Key) {
+    harness.key_press(key);
+    harness.run_steps(3);
+}
+
+#[test]
+fn the_cost_of_each_pixel_is_a_key_away() {
+    let mut harness = small();
+    press(&mut harness, egui::Key::K);
+    harness.get_by_label_contains("Cost of each pixel");
+    harness.get_by_label("10000 and more");
+    // All that was taken is on the map, up to rounding in single precision.
+    let picture = harness.state().picture();
+    let all: f64 = picture.samples().iter().copied().map(f64::from).sum();
+    let taken = picture.progress.samples as f64;
+    assert!(
+        taken > 0.0 && (all / taken - 1.0).abs() < 1e-4,
+        "{all} {taken}"
+    );
+    press(&mut harness, egui::Key::K);
+    assert!(
+        harness
+            .query_by_label_contains("Cost of each pixel")
+            .is_none()
+    );
+}
+
+#[test]
+fn the_error_of_each_pixel_is_measured_and_then_said_to_be() {
+    let mut harness = small();
+    harness.get_by_label_contains("ΔE (95 %), predicted");
+    harness.get_by_label("error per pixel").click();
+    harness.run_steps(3);
+    harness.get_by_label_contains("Error of each pixel");
+    for _ in 0..6000 {
+        harness.run_steps(1);
+        if harness
+            .query_by_label_contains("ΔE (95 %), measured")
+            .is_some()
+        {
+            // Another look at the same scene is measured as well, without another reference.
+            harness
+                .state_mut()
+                .document_mut()
+                .project
+                .render
+                .step_voxels = Some(4.0);
+            settle(&mut harness);
+            wait_for(&mut harness, "ΔE (95 %), measured");
+            // Another scene is not.
+            harness
+                .state_mut()
+                .document_mut()
+                .project
+                .render
+                .step_voxels = None;
+            harness.state_mut().document_mut().project.air.humidity = 0.9;
+            press(&mut harness, egui::Key::E);
+            harness.state_mut().document_mut().project.camera.fov_deg = Some(20.0);
+            settle(&mut harness);
+            harness.get_by_label_contains("ΔE (95 %), predicted");
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("nothing was measured");
+}
+
+fn wait_for(harness: &mut Harness<'_, App>, label: &str) {
+    for _ in 0..1000 {
+        harness.run_steps(1);
+        if harness.query_by_label_contains(label).is_some() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("never: {label}");
+}
+
+#[test]
+fn a_snapshot_is_wiped_against_and_goes_back() {
+    let mut harness = small();
+    let before = harness.state().document().project.clone();
+    // Without a snapshot the picture itself becomes one.
+    press(&mut harness, egui::Key::W);
+    harness.get_by_role_and_label(Role::Button, "Snapshot 1");
+    let line = harness.get_by_label("Wipe line");
+    let first = line.rect().center().x;
+    harness.state_mut().document_mut().project.soot.radius_nm = 55.0;
+    settle(&mut harness);
+    // The line follows the hand.
+    let from = egui::pos2(first, 500.0);
+    harness.drag_at(from);
+    harness.run_steps(1);
+    harness.hover_at(from + egui::vec2(-60.0, 0.0));
+    harness.run_steps(1);
+    harness.drop_at(from + egui::vec2(-60.0, 0.0));
+    harness.run_steps(2);
+    let moved = harness.get_by_label("Wipe line").rect().center().x;
+    assert!((moved - first + 60.0).abs() < 2.0, "{first} {moved}");
+    // The camera has not moved with it.
+    let now = &harness.state().document().project;
+    assert_eq!(now.camera, before.camera);
+    assert_ne!(*now, before);
+
+    harness.get_by_label("Restore").click();
+    harness.run_steps(2);
+    assert_eq!(harness.state().document().project, before);
+    harness.state_mut().document_mut().undo();
+    assert_ne!(harness.state().document().project, before);
+    press(&mut harness, egui::Key::Escape);
+    assert!(
+        harness
+            .query_by_label("Wipe")
+            .is_none_or(|it| it.rect().center().x != moved)
+    );
+}
+
+#[test]
+fn a_snapshot_that_is_forgotten_ends_the_comparison() {
+    let mut harness = small();
+    harness.get_by_label("Grab snapshot").click();
+    harness.run_steps(2);
+    press(&mut harness, egui::Key::Q);
+    harness.get_by_label("Forget").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Snapshot 1").is_none());
+    harness.get_by_label_contains("grab one");
+}
