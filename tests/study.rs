@@ -170,7 +170,7 @@ fn a_whole_picture_is_measured_against_the_reference_pixel_by_pixel() {
         &Cancel::never(),
     )
     .unwrap();
-    // Rendered tile by tile, every sample at once, it is the picture of the same numbers.
+    // Rendered packet by packet, every sample at once, it is the picture of the same numbers.
     let film = Mutex::new(Film::new(looked.settings.size));
     let whole = study::render_reference(
         &looked.scene,
@@ -189,13 +189,15 @@ fn a_whole_picture_is_measured_against_the_reference_pixel_by_pixel() {
         samples_per_pixel: 1,
     };
     let picture = looked.whole(&plan, coarse).film;
-    let known: Vec<bool> = (0..picture.pixels().len()).map(|i| i % 3 > 0).collect();
-    let apart = study::apart(&pilot, &reference, &known, &picture);
-    for (apart, known) in apart.iter().zip(&known) {
-        assert_eq!(apart.is_finite(), *known);
-    }
-    // What is known of it has the difference that two whole pictures have, at an exposure that a part tells within a tenth.
-    let all = study::apart(&pilot, &reference, &vec![true; known.len()], &picture);
+    let all = study::apart(&pilot, &reference, &[true; 40 * 32], &picture);
+    // Where only one packet is there, it stands for its block of the mosaic, and for no other.
+    let known: Vec<bool> = (0..40 * 32).map(|i| i % 40 < 4 && i / 40 < 4).collect();
+    let some = study::apart(&pilot, &reference, &known, &picture);
+    let at = |x: usize, y: usize| y * 40 + x;
+    assert_eq!(some[at(21, 30)], all[at(1, 2)]);
+    assert_eq!(some[at(3, 3)], all[at(3, 3)]);
+    assert!(some[at(32, 0)].is_nan());
+    // What is known has the difference that two whole pictures have, at an exposure that a part tells within a tenth.
     let xyz = |film: &Film| -> Vec<[f64; 3]> {
         let pixels = film.pixels().iter();
         pixels.map(|pixel| pixel.xyz.map(f64::from)).collect()

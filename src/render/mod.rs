@@ -58,7 +58,7 @@ pub mod white;
 
 pub use film::{Film, Pixel, Tile};
 pub use level::Level;
-pub use pass::{Pass, render_pass, render_whole_tiles};
+pub use pass::{Pass, render_mosaic, render_pass};
 pub use plan::{Facts, Plan};
 pub use probe::{Probe, Prober};
 pub use still::{Frame, render_planned, render_still};

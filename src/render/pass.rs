@@ -95,14 +95,19 @@ pub fn render_pass(
         return true;
     };
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
-    for_each_tile(rays, |corner, size| {
+    for_each_tile(&centre_out(rays), rays, TILE, |corner, size| {
         render_tile(&packets, pass, corner, size, cancel).map(sink)
     })
 }
 
-/// Renders every sample of a still's picture tile by tile, so that what is there of it is as it will be: from the centre of the
-/// picture outwards, each tile handed to `sink` as the mean of its samples from the worker that made it. `false` if cancelled.
-pub fn render_whole_tiles(
+/// Sides of the blocks of a mosaic in pixels, coarsest first: of each block, the packet in its corner is rendered before those
+/// of smaller blocks.
+pub const MOSAIC: [u32; 4] = [32, 16, 8, PACKET_SIDE];
+
+/// Renders a still's picture packet by packet, in the order of a [`MOSAIC`]: whatever is there of it is as it will be, and soon
+/// there is something of every part. Each packet is handed to `sink` as the mean of its samples from the worker that made it.
+/// `false` if cancelled.
+pub fn render_mosaic(
     scene: &Scene,
     plan: &Plan,
     settings: &Settings,
@@ -116,7 +121,8 @@ pub fn render_whole_tiles(
     let Ok(packets) = Packets::new(scene, plan, fields, settings.step_voxels, true) else {
         return true;
     };
-    for_each_tile(plan.tables.size, |corner, size| {
+    let rays = plan.tables.size;
+    for_each_tile(&mosaic(rays), rays, PACKET_SIDE, |corner, size| {
         let mut whole: Option<Tile> = None;
         for pass in &passes {
             let tile = render_tile(&packets, pass, corner, size, cancel)?;
@@ -125,18 +131,36 @@ pub fn render_whole_tiles(
                 None => whole = Some(tile),
             }
         }
-        whole.map(&sink)
+        whole.map(sink)
     })
+}
+
+/// Upper left pixels of all packets in the order of a mosaic.
+fn mosaic(size: [u32; 2]) -> Vec<[u32; 2]> {
+    let mut before = None;
+    let mut packets = Vec::new();
+    for side in MOSAIC {
+        let corners = |axis: usize| (0..size[axis]).step_by(side as usize);
+        let all = corners(1).flat_map(|y| corners(0).map(move |x| [x, y]));
+        let is_new = |at: &[u32; 2]| before.is_none_or(|side: u32| at.iter().any(|v| v % side > 0));
+        packets.extend(all.filter(is_new));
+        before = Some(side);
+    }
+    packets
 }
 
 /// Calls `work` with the upper left ray and the size of every tile, in the calling thread's rayon pool. Whether none gave
 /// `None`; after one did, those of others may be missing as well.
-fn for_each_tile(rays: [u32; 2], work: impl Fn([u32; 2], [u32; 2]) -> Option<()> + Sync) -> bool {
-    let tiles = centre_out(rays);
+fn for_each_tile(
+    corners: &[[u32; 2]],
+    rays: [u32; 2],
+    side: u32,
+    work: impl Fn([u32; 2], [u32; 2]) -> Option<()> + Sync,
+) -> bool {
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     rayon::broadcast(|_| {
-        while let Some(&corner) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let size = [0, 1].map(|axis| TILE.min(rays[axis] - corner[axis]));
+        while let Some(&corner) = corners.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let size = [0, 1].map(|axis| side.min(rays[axis] - corner[axis]));
             if work(corner, size).is_none() {
                 stopped.store(true, Ordering::Relaxed);
             }
@@ -242,5 +266,17 @@ mod tests {
         sorted.sort_unstable();
         sorted.dedup();
         assert_eq!(sorted.len(), tiles.len());
+    }
+
+    #[test]
+    fn a_mosaic_has_every_packet_once_and_some_of_every_part_first() {
+        let packets = mosaic([70, 33]);
+        let mut sorted = packets.clone();
+        sorted.sort_unstable();
+        sorted.dedup();
+        assert_eq!(sorted.len(), packets.len());
+        assert_eq!(packets.len(), 18 * 9);
+        let first = [0, 32].map(|y| [0, 32, 64].map(|x| [x, y])).concat();
+        assert_eq!(packets[..6], first);
     }
 }

@@ -5,11 +5,12 @@ use super::pilot::Pilot;
 use super::report::REFERENCE;
 use super::sight::{Error, Sight};
 use crate::render::film::{Film, Tile};
-use crate::render::{Cancel, Plan, Settings, render_whole_tiles};
+use crate::render::pass::MOSAIC;
+use crate::render::{Cancel, Plan, Settings, render_mosaic};
 use crate::scene::Scene;
 
-/// Renders the picture that others are compared with, as large as these settings have it and with their effects, tile by tile
-/// from its centre. In the calling thread's rayon pool; `false` if cancelled.
+/// Renders the picture that others are compared with, as large as these settings have it and with their effects, as a mosaic that
+/// becomes finer. In the calling thread's rayon pool; `false` if cancelled.
 pub fn render_reference(
     scene: &Scene,
     plan: &Plan,
@@ -19,7 +20,7 @@ pub fn render_reference(
 ) -> bool {
     let settings = REFERENCE.within(settings);
     let plan = plan.at(scene, &settings);
-    render_whole_tiles(scene, &plan, &settings, cancel, sink)
+    render_mosaic(scene, &plan, &settings, cancel, sink)
 }
 
 /// Whether a picture with these numbers is its own reference.
@@ -27,11 +28,15 @@ pub fn is_the_reference(numbers: Numbers) -> bool {
     numbers == REFERENCE
 }
 
-/// How different each pixel of a picture looks from its reference, ΔE_ITP, row by row; not a number where `known` says that
-/// there is no reference yet. As large as the smaller of them.
+/// How different each pixel of a picture looks from its reference, ΔE_ITP, row by row; none if they are not of one size. Where
+/// `known` says that there is no reference yet it is that of the nearest block of the mosaic, and not a number where that is
+/// not there either.
 pub fn apart(pilot: &Pilot, reference: &Film, known: &[bool], picture: &Film) -> Vec<f32> {
+    if reference.size() != picture.size() {
+        return Vec::new();
+    }
     let pixels = reference.pixels().iter().zip(picture.pixels()).zip(known);
-    pixels
+    let mut apart: Vec<f32> = pixels
         .map(|((reference, pixel), known)| {
             if !known {
                 return f32::NAN;
@@ -39,7 +44,21 @@ pub fn apart(pilot: &Pilot, reference: &Film, known: &[bool], picture: &Film) ->
             let [reference, pixel] = [reference, pixel].map(|it| it.xyz.map(f64::from));
             pilot.apart(reference, pixel) as f32
         })
-        .collect()
+        .collect();
+    let [width, height] = reference.size();
+    let [.., packet] = MOSAIC;
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        // The same place within the packet in the corner of the block.
+        let within = |side: u32| [x, y].map(|at| (at / side * side + at % packet) as usize);
+        let index = |[x, y]: [usize; 2]| y * width as usize + x;
+        let here = index([x as usize, y as usize]);
+        if !known[here] {
+            let blocks = MOSAIC.into_iter().rev().map(|side| index(within(side)));
+            let there = blocks.filter(|&at| known.get(at).copied().unwrap_or(false));
+            apart[here] = there.map(|at| apart[at]).next().unwrap_or(f32::NAN);
+        }
+    }
+    apart
 }
 
 /// How far a whole picture is from its reference, and never nearer than the reference is off by itself. `None` where nothing is
