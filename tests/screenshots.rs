@@ -218,6 +218,27 @@ fn of_what_accuracy_costs() {
         }
     }
     // The chart, once some of it was measured.
-    let hands = "xdotool search --name Sootlight windowfocus; sleep 0.3; xdotool key c; sleep 60";
-    window_after(&data, "window_accuracy.png", &["plume/plume.vdb"], hands);
+    let focus = "xdotool search --name Sootlight windowfocus; sleep 0.3";
+    let hands = format!("{focus}; xdotool key c; sleep 60");
+    window_after(&data, "window_accuracy.png", &["plume/plume.vdb"], &hands);
+}
+
+#[test]
+#[ignore = "writes screenshots/, by the command at the top of this file"]
+fn of_maps_and_snapshots() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    let data = shared.join("data");
+    let focus = "xdotool search --name Sootlight windowfocus; sleep 0.3";
+    let fire = ["embergen_cc0/embergen_fire_a_60.vdb"];
+    let hands = format!("{focus}; xdotool key k; sleep 2");
+    window_after(&data, "window_cost.png", &fire, &hands);
+    // Minutes, until much of the reference is there.
+    let hands = format!("{focus}; xdotool key e; sleep 240");
+    window_after(&data, "window_error.png", &fire, &hands);
+    // The same fire from another side.
+    let hands = format!("{focus}; xdotool key g; xdotool key w; xdotool key 3; sleep 25");
+    let fire = ["pool/pool_0022_zip_half.vdb"];
+    window_after(&data, "window_compare.png", &fire, &hands);
 }
