@@ -1,9 +1,11 @@
-//! A number of the packed medium that is none spoils the rays that come to it, and no other.
+//! Whole stills: in time, and with a number of the packed medium that is none.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::develop::flaws_of;
+use super::still::render_until;
 use super::{Cancel, Plan, render_planned};
 use crate::project::Project;
 use crate::volume::procedural;
@@ -56,4 +58,37 @@ fn what_is_no_number_spoils_the_rays_that_come_to_it_and_no_other() {
         let count = format!("{} pixels are no numbers", changed.len());
         assert!(words.starts_with(&count), "{words}");
     }
+}
+
+#[test]
+fn a_picture_whose_time_is_up_at_once_is_whole_and_says_so() {
+    let mut project = Project::default();
+    project
+        .set_all([
+            "render.size=[48, 64]",
+            "effects.scattering=off",
+            "effects.refraction=off",
+        ])
+        .unwrap();
+    let job = project.job(&Arc::new(procedural::torch())).unwrap();
+    let scene = job.scene(None);
+    let plan = Plan::new(&scene, &job.settings);
+    let now = Instant::now();
+    let render = |cancel| render_until(&scene, &plan, &job.settings, now, cancel, &|_| {});
+    let frame = render(&Cancel::never()).unwrap();
+    assert!(!frame.finished);
+    assert!(
+        frame
+            .flaws
+            .iter()
+            .any(|flaw| flaw.contains("the time was up"))
+    );
+    // A ray for each block of eight by eight pixels, and none more.
+    assert_eq!(frame.rays, 6 * 8);
+    let lit = frame
+        .film
+        .pixels()
+        .iter()
+        .filter(|pixel| pixel.xyz[1] > 0.0);
+    assert!(lit.count() > 64);
 }

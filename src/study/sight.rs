@@ -216,6 +216,18 @@ mod tests {
         assert_eq!(percentile(values(1.0), 0.5), Some(2.0));
         assert_eq!(percentile(values(8.0), 0.5), Some(1.0));
         assert_eq!(percentile(Vec::new(), 0.5), None);
+
+        // One of ten pixels is off and stands for 31 of 40.
+        let one: Picture = vec![[95.0, 100.0, 108.0]; 10];
+        let mut other = one.clone();
+        other[3][1] *= 1.1;
+        let off = |heavy: f64| {
+            let weights = (0..10).map(|i| if i == 3 { heavy } else { 1.0 });
+            let sight = Sight::of(&one, weights.collect());
+            sight.map(|sight| sight.error(&one, &other).de_mean)
+        };
+        let [alike, heavy] = [1.0, 31.0].map(|weight| off(weight).unwrap_or_default());
+        assert!((heavy / alike - 7.75).abs() < 1e-9, "{heavy} {alike}");
     }
 
     #[test]

@@ -57,15 +57,22 @@ fn the_error_of_each_pixel_is_measured_and_then_said_to_be() {
             .query_by_label_contains("ΔE (95 %), measured")
             .is_some()
         {
-            // Another look at the same scene is measured as well, without another reference.
+            let line = |harness: &Harness<'_, App>| {
+                let line = harness.get_by_label_contains("ΔE (95 %), ");
+                let words = line.value().unwrap_or_default();
+                words.split(" ·").next().unwrap_or_default().to_owned()
+            };
+            // Another picture of the same scene is measured as well, without another reference, and by itself.
+            let first = line(&harness);
             harness
                 .state_mut()
                 .document_mut()
                 .project
                 .render
-                .step_voxels = Some(4.0);
+                .step_voxels = Some(0.25);
             settle(&mut harness);
             wait_for(&mut harness, "ΔE (95 %), measured");
+            assert_ne!(line(&harness), first);
             // Another scene is not.
             harness
                 .state_mut()
