@@ -217,3 +217,75 @@ impl Against {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use super::*;
+    use crate::project::Project;
+    use crate::volume::procedural;
+
+    #[test]
+    fn only_the_picture_that_was_compared_counts_as_measured() {
+        let project = Project::default();
+        let job = project.job(&Arc::new(procedural::torch())).unwrap();
+        let picture = Picture::new([4, 2]);
+        let film = Arc::new(Film::new([4, 2]));
+        let mut against = Against::new(Arc::new(|| {}));
+        against.reference = Some(Reference {
+            view: view_of(&job),
+            known: Arc::new(vec![true; 8]),
+            film,
+            pixels: 8,
+            rendering: None,
+            failed: false,
+        });
+        let found = |version: u64| Found {
+            of: Compared {
+                picture: version,
+                pixels: 8,
+                is_whole: true,
+            },
+            apart: vec![0.0; 8],
+            error: Some(Error::default()),
+        };
+        against.found = Some(found(picture.version));
+        assert!(against.measured(&job, &picture).is_some());
+        // Other numbers show the same, another camera does not.
+        let mut finer = job.clone();
+        finer.settings.step_voxels = 0.3;
+        assert!(against.measured(&finer, &picture).is_some());
+        let mut aside = job.clone();
+        aside.camera = aside.camera.orbited(0.1, 0.0);
+        assert!(against.measured(&aside, &picture).is_none());
+        against.found = Some(found(picture.version + 1));
+        assert!(against.measured(&job, &picture).is_none());
+    }
+
+    #[test]
+    fn a_reference_is_whole_when_every_pixel_of_it_is_there() {
+        let project = Project::default();
+        let job = project.job(&Arc::new(procedural::torch())).unwrap();
+        let mut reference = Reference {
+            view: view_of(&job),
+            known: Arc::new(vec![false; 15]),
+            film: Arc::new(Film::new([5, 3])),
+            pixels: 0,
+            rendering: None,
+            failed: false,
+        };
+        for (origin, size) in [([0, 0], [4, 3]), ([4, 0], [1, 3])] {
+            assert!(!reference.is_whole());
+            reference.take(&Tile {
+                stride: 1,
+                sample: 15,
+                origin,
+                size,
+                pixels: vec![crate::render::Pixel::default(); (size[0] * size[1]) as usize],
+                taken: Vec::new(),
+            });
+        }
+        assert!(reference.is_whole() && reference.known.iter().all(|known| *known));
+    }
+}
