@@ -18,6 +18,8 @@ impl LeastSquares {
         }
     }
 
+    /// Adds a spectrum. One without light, or with so little that its sums are denormal, has no colour to be fitted, and is
+    /// passed over: of a row that is no numbers no singular values are ever found.
     pub(super) fn add(
         &mut self,
         at_nodes: impl Iterator<Item = f64>,
@@ -30,9 +32,17 @@ impl LeastSquares {
                 *sum += value * weight;
             }
         }
-        self.rows.extend(at_nodes.map(|value| value / xyz[1]));
-        for (target, value) in self.targets.iter_mut().zip(xyz) {
-            target.push(value / xyz[1]);
+        if !xyz[1].is_normal() {
+            return;
+        }
+        let row: Vec<f64> = at_nodes.map(|value| value / xyz[1]).collect();
+        let colour = xyz.map(|value| value / xyz[1]);
+        if !row.iter().chain(&colour).all(|value| value.is_finite()) {
+            return;
+        }
+        self.rows.extend(row);
+        for (target, value) in self.targets.iter_mut().zip(colour) {
+            target.push(value);
         }
     }
 

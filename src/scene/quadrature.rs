@@ -322,4 +322,15 @@ mod tests {
                 .contains("16, 32 or 64")
         );
     }
+
+    #[test]
+    fn what_a_black_surface_sends_back_changes_no_weight() {
+        for set in WavelengthSet::ALL {
+            let plain = set.wavelengths(LAW);
+            for dark in [0.0, 1e-320] {
+                let tinted = set.tinted_wavelengths(LAW, &[&|_| dark]);
+                assert_eq!(tinted, plain, "{set:?}, {dark:e}");
+            }
+        }
+    }
 }

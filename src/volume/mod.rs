@@ -19,6 +19,7 @@ mod new_brick;
 mod openvdb;
 mod openvdb_archive;
 mod openvdb_heads;
+mod openvdb_topology;
 mod openvdb_tree;
 mod preset;
 pub mod procedural;

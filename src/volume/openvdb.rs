@@ -1,9 +1,10 @@
 //! OpenVDB files, by a pinned reader that never gets further than the files named after them.
 //!
 //! The reader is young, so it runs inside `catch_unwind`, and everything it is told to read is compared with
-//! the length of the file first. Its trees cost at most about fifty times the bytes they were read from (an
-//! empty inner node of 1 KiB becomes 49 KiB), one grid at a time. What is added here is meaning: which grids
-//! are scalar fields, active masks, active tiles at every level, and what the file announces.
+//! the length of the file first. Its trees, one at a time, cost up to about fifty times the bytes they were read
+//! from (an empty inner node of 1 KiB becomes 49 KiB), so what a tree will cost is counted before it is built. What
+//! is added here is meaning: which grids are scalar fields, active masks, active tiles at every level, and what the
+//! file announces.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -158,6 +159,14 @@ impl Reader<'_> {
         notes: &mut Vec<String>,
     ) -> Result<Grid, VolumeError> {
         left.check_bytes(self.path, &format!("grid {}", found.name), found.announced)?;
+        let tree = file
+            .tree_bytes(found.descriptor, stretch)
+            .map_err(|error| vdb_error(self.path, &error))?;
+        self.limits.check_bytes(
+            self.path,
+            &format!("the tree of grid {}", found.name),
+            tree.unwrap_or(0),
+        )?;
         let built_from = if self.is_stream { 0.0 } else { READING };
         let building = stretch.part(built_from, 1.0);
         let any = file

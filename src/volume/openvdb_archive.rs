@@ -10,9 +10,10 @@ use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use openvdb_rs::grid::AnyGrid;
-use openvdb_rs::io::{Error as VdbError, File, GridDescriptor, GridMetadata, Stream};
+use openvdb_rs::io::{Compression, Error as VdbError, File, GridDescriptor, GridMetadata, Stream};
 use openvdb_rs::metadata::MetaMap;
 
+use super::openvdb_topology::{Writing, tree_bytes};
 use super::watch::Stretch;
 
 /// Bytes of the header: magic number, version, library version, whether offsets follow, identifier.
@@ -78,6 +79,32 @@ impl<'a> Archive<'a> {
                 metadata.ok_or_else(|| VdbError::GridNotFound(descriptor.unique_name.clone()))
             }
         }
+    }
+
+    /// Bytes that the tree of a grid will take; `None` where all trees were read at once.
+    pub(super) fn tree_bytes(
+        &self,
+        descriptor: &GridDescriptor,
+        stretch: Stretch,
+    ) -> Result<Option<u64>, VdbError> {
+        let Self::Seekable { file, path, .. } = self else {
+            return Ok(None);
+        };
+        let owner = owner(file.descriptors(), descriptor)?;
+        let header = file.header();
+        let writing = Writing {
+            version: header.file_version,
+            zipped: header.compression.contains(Compression::ZIP),
+            value_bytes: match owner.value_type() {
+                Some("double") => size_of::<f64>(),
+                _ => size_of::<f32>(),
+            },
+            half: owner.save_float_as_half,
+        };
+        let (bytes, length) = grid_bytes(path, owner)?;
+        // It takes no share of the time worth telling, but can be cancelled.
+        let bytes = stretch.part(0.0, 0.0).reader(bytes, length);
+        Ok(Some(tree_bytes(BufReader::new(bytes), writing)?))
     }
 
     /// A grid with its tree: for one that borrows its tree, the grid that it borrows from.
@@ -176,8 +203,13 @@ fn grid_as_archive<'a>(
     for offset in [grid.grid_pos, grid.block_pos, grid.end_pos] {
         before.extend(offset.to_le_bytes());
     }
+    let (file, length) = grid_bytes(path, grid)?;
+    Ok(Cursor::new(before).chain(stretch.reader(file, length)))
+}
+
+/// The file from where a grid begins, and how many bytes are the grid's.
+fn grid_bytes(path: &Path, grid: &GridDescriptor) -> Result<(fs::File, u64), VdbError> {
     let mut file = fs::File::open(path)?;
     file.seek(SeekFrom::Start(grid.grid_pos.unsigned_abs()))?;
-    let length = grid.end_pos.abs_diff(grid.grid_pos);
-    Ok(Cursor::new(before).chain(stretch.reader(file, length)))
+    Ok((file, grid.end_pos.abs_diff(grid.grid_pos)))
 }

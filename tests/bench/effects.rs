@@ -11,8 +11,9 @@
 //! A last line compares the picture whose effects are decided automatically with the same picture where each was switched by
 //! hand to what was decided: what deciding costs.
 //!
-//! The first lines are what soot costs that is so thin that its light is below what f32 holds in full (1.2e-38), over soot
-//! that is as clear but told in full: denormal numbers take a hundred times as long on some processors.
+//! The first lines are what soot costs of which there is so little that squares of its depths are below what f32 holds in full
+//! (1.2e-38), or the depths themselves, over soot that is as clear but told in full: denormal numbers take a hundred times as
+//! long on some processors. The voxels of a file are never denormal when they are packed, but an amount can make them so.
 
 #![allow(clippy::print_stdout, reason = "what a bench is for")]
 
@@ -82,10 +83,11 @@ fn main() {
     }
 }
 
-/// Amounts of soot whose light is denormal, or nothing, in f32.
-const THIN: [f64; 3] = [1e-36, 1e-39, 1e-42];
+/// Amounts of soot for which, in a flame with a peak of about 1e-6, the squares of depths are denormal; for which they are
+/// nothing; for which the depths themselves are denormal.
+const THIN: [f64; 3] = [1e-15, 1e-24, 1e-36];
 /// An amount through which everything is seen as well, with the same sums, but whose light is told in full.
-const CLEAR: f64 = 1e-20;
+const CLEAR: f64 = 1e-9;
 
 /// Time of so little soot over that of a clear fire.
 fn measure_thin(volume: &Arc<Volume>, amount: f64) {

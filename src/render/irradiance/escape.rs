@@ -194,6 +194,10 @@ impl Kernel for Follow<'_> {
             all: vec![[0.0; BLOCK]; self.tree.tables * blocks],
             lines: vec![[0.0; 2]; self.channels.thermal.len()],
         };
+        // Around nothing there is no box to be cut by lines.
+        if self.cells.bricks.is_empty() {
+            return sums;
+        }
         // The lattice's own inwards direction, with the length of one of its units along it.
         let inwards = -self
             .medium

@@ -264,3 +264,39 @@ fn smoke_is_told_apart_only_where_it_is_asked_for() {
     };
     assert_eq!(3 * bytes(false), 2 * bytes(true));
 }
+
+#[test]
+fn soot_too_thin_to_be_seen_is_none_and_no_denormal_number_is_packed() {
+    let fractions = [1e-30, 2e-31, 5e-32, 1e-36, 1e-40, 1e-45, 0.0];
+    let dims = IVec3::new(fractions.len() as i32, 1, 1);
+    let of_voxel = |voxel: IVec3| fractions[voxel.x as usize];
+    let grid = |name: &str| {
+        let place = DAffine3::IDENTITY;
+        Grid::from_fn(name, dims, place, Border::Clamp, 0.0, of_voxel)
+    };
+    let volume = Volume::from_grids(vec![grid("soot"), grid("smoke")], "thin");
+    let both = maps(0.0);
+    let smoke_alone = FieldMaps {
+        soot: None,
+        ..both.clone()
+    };
+    for (maps, amounts) in [(&both, [1.0, 0.0]), (&smoke_alone, [0.0, 1.0])] {
+        let fields = Fields {
+            volume: &volume,
+            maps,
+            amounts,
+            ambient_k: 300.0,
+            gas: GasFields::default(),
+            smoke_apart: amounts[1] > 0.0,
+            interpolation: Interpolation::default(),
+        };
+        let medium = fields
+            .pack(&DAffine3::IDENTITY, &Limits::default())
+            .unwrap();
+        let packed = medium.samples.iter().map(|sample| sample[0]);
+        for value in packed.chain(medium.smoke.iter().copied()) {
+            assert!(value == 0.0 || value > 1e-31, "{value:e}");
+        }
+        assert_eq!(medium.peak_volume_fraction(), 1e-30);
+    }
+}

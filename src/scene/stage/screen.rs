@@ -102,9 +102,18 @@ impl Screen {
     /// along each axis, so the mean is, too.
     fn checker(&self, place: [f64; 2], square_m: f64) -> f64 {
         let pixel = 2.0 * self.half_m[1] / self.size[1] / square_m;
+        let sign = |square: f64| 1.0 - 2.0 * square.rem_euclid(2.0);
         let wave = |at: f64| {
-            let at = at / square_m;
-            (triangle(at + 0.5 * pixel) - triangle(at - 0.5 * pixel)) / pixel
+            let [low, high] = [-0.5, 0.5].map(|side| at / square_m + side * pixel);
+            let [first, last] = [low.floor(), high.floor()];
+            // Of a pixel that is next to nothing beside a square, a difference of integrals would leave no digit.
+            if first == last {
+                sign(first)
+            } else if last - first == 1.0 {
+                sign(last) * ((high - last) - (last - low)) / (high - low)
+            } else {
+                (triangle(high) - triangle(low)) / pixel
+            }
         };
         let white = 0.5 * (1.0 + wave(place[0]) * wave(place[1]));
         DARK_SQUARE + (1.0 - DARK_SQUARE) * white

@@ -303,6 +303,33 @@ fn squares_meet_in_the_middle_and_are_smooth_over_a_pixel() {
 }
 
 #[test]
+fn a_pixel_that_is_next_to_nothing_beside_a_square_has_the_squares_own_light() {
+    let camera = Camera {
+        fov_deg: 0.01,
+        ..looking_along_y()
+    };
+    let view = camera.view([16, 16]).unwrap();
+    for square_m in [1e3, 1e6, 1e12] {
+        let backdrop = Backdrop {
+            pattern: Pattern::Checker { square_m },
+            distance_m: 1e-6,
+            luminance_cd_m2: 683.0,
+        };
+        let screen = backdrop.facing(&camera, [16, 16]).unwrap();
+        for (x, y) in (0..16).flat_map(|x| (0..16).map(move |y| (x, y))) {
+            let found = screen.xyz(&view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5))[1];
+            // The middle of the frame is a corner of four squares, of which that at the upper right is white.
+            let white = (x < 8) == (y >= 8);
+            let expected = if white { 1.0 } else { 0.1 };
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "{square_m}: {x}, {y}: {found}"
+            );
+        }
+    }
+}
+
+#[test]
 fn a_picture_is_fitted_to_the_height_and_black_around() {
     let camera = looking_along_y();
     let view = camera.view([40, 20]).unwrap();

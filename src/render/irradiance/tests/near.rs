@@ -319,3 +319,19 @@ fn what_stands_in_the_fire_casts_no_rings() {
         }
     }
 }
+
+#[test]
+fn nothing_that_shines_lights_nothing() {
+    let scene = scene(
+        flame(cube(8, EDGE_M, |_| 0.0, |_| KELVIN)),
+        Stage::default(),
+    );
+    let plan = plan(&scene);
+    for level in [Level::Coarse, Level::Fine] {
+        let light = light(&scene, &plan, level);
+        for at in [DVec3::ZERO, DVec3::splat(0.5 * EDGE_M), DVec3::Y] {
+            let found = irradiance(&light, &plan, &Stage::default(), [at, DVec3::Z]);
+            assert!(found.iter().all(|found| *found == 0.0), "{at}: {found:?}");
+        }
+    }
+}
