@@ -4,10 +4,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use sootlight::engine::{Engine, Generation, News, Picture};
+use sootlight::engine::{Engine, Generation, News, Packed, Picture};
 use sootlight::project::Job;
 use sootlight::render::plan::Effect;
-use sootlight::render::{Cancel, Switch, render_still};
+use sootlight::render::{Cancel, Level, Plan, Switch, render_still};
+use sootlight::scene::{Scene, WavelengthSet};
 
 use super::common;
 
@@ -98,6 +99,60 @@ fn costs_come_after_the_picture_and_whoever_looks_closer_sees_what_was_decided()
     wait(&engine, &mut picture, |picture| {
         picture.generation() == Some(newest) && picture.progress.finished
     });
+}
+
+#[test]
+fn other_numbers_for_the_same_scene_work_nothing_out_again() {
+    let (engine, _) = engine();
+    let size = [64, 96];
+    let mut picture = Picture::new(size);
+    let job = numbered(1, size);
+    engine.submit(job.clone());
+    wait(&engine, &mut picture, |picture| picture.progress.finished);
+    let first = engine.scene().unwrap();
+    let mut finer = job.clone();
+    finer.settings.step_voxels *= 0.5;
+    let newest = engine.refine(finer.clone(), None);
+    wait(&engine, &mut picture, |picture| {
+        picture.generation() == Some(newest) && picture.progress.finished
+    });
+    // No coarse pass, the same light from all sides, and yet the picture that a still has.
+    assert_eq!(picture.progress.passes.len(), 1);
+    let second = engine.scene().unwrap();
+    let fine = |plan: &Plan, scene: &Scene| {
+        let fields = plan.fields(scene, Level::Fine, &Cancel::never());
+        fields.unwrap().clone()
+    };
+    let fields = |packed: &Packed| fine(&packed.plan, &packed.scene);
+    assert!(fields(&first).shares_scattered_light(&fields(&second)));
+    let still = render_still(
+        &finer.scene(None),
+        &finer.settings,
+        &Cancel::never(),
+        &|_| {},
+    );
+    assert_eq!(*picture.film(), still.unwrap().film);
+
+    // What somebody tried with the same scene serves as well.
+    let mut other = finer.clone();
+    other.settings.wavelengths = WavelengthSet::Fitted(4);
+    other.settings.effects.wavelengths = Switch::Off;
+    let tried = second.plan.at(&second.scene, &other.settings);
+    let of_tried = fine(&tried, &second.scene);
+    let newest = engine.refine(other, Some(Arc::new(tried)));
+    wait(&engine, &mut picture, |picture| {
+        picture.generation() == Some(newest) && picture.progress.finished
+    });
+    let third = fields(&engine.scene().unwrap());
+    assert!(third.shares_scattered_light(&of_tried));
+
+    // Another scene is not refined.
+    let newest = engine.submit(numbered(2, size));
+    wait(&engine, &mut picture, |picture| {
+        picture.generation() == Some(newest) && picture.progress.finished
+    });
+    let fourth = fields(&engine.scene().unwrap());
+    assert!(!fourth.shares_scattered_light(&third));
 }
 
 #[test]

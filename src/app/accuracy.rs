@@ -1,4 +1,4 @@
-//! What accuracy costs in the scene on show: looked at in the background, on one thread, once a fine picture of it is there.
+//! What accuracy costs in the scene on show: looked at in the background once a fine picture of it is there.
 //!
 //! A look tells which numbers are good enough for the quality that is wished; the document takes them. While the chart is open
 //! every variant is measured as well, one after another.
@@ -8,6 +8,7 @@ use std::sync::Arc;
 use super::background::{Ended, Rank, Running, Wake};
 use crate::engine::Packed;
 use crate::project::{self, Job};
+use crate::render::Plan;
 use crate::study::{self, Choice, Error, Numbers, Pilot, Point};
 
 /// Share of an error that the next better choice has at most.
@@ -28,7 +29,7 @@ pub(super) struct Accuracy {
 struct Looking {
     view: Job,
     wished: Wished,
-    running: Running<Option<Arc<Pilot>>>,
+    running: Running<Option<Looked>>,
 }
 
 /// A scene that was looked at.
@@ -37,7 +38,14 @@ struct Known {
     /// What it was looked at for.
     wished: Wished,
     /// `None` where nothing is to be seen.
-    pilot: Option<Arc<Pilot>>,
+    looked: Option<Looked>,
+}
+
+/// What a look has found.
+struct Looked {
+    pilot: Arc<Pilot>,
+    /// What it was tried with, if that was another plan than the picture's: its fields may serve the next picture.
+    tried: Option<Arc<Plan>>,
 }
 
 /// A scene whose variants are being measured.
@@ -118,7 +126,12 @@ impl Accuracy {
 
     /// What was found out about the scene of a job.
     pub(super) fn pilot(&self, job: &Job) -> Option<&Arc<Pilot>> {
-        self.known_of(job)?.pilot.as_ref()
+        Some(&self.known_of(job)?.looked.as_ref()?.pilot)
+    }
+
+    /// The plan that a job's scene was looked at with, if that was another than its picture's.
+    pub(super) fn tried(&self, job: &Job) -> Option<Arc<Plan>> {
+        self.known_of(job)?.looked.as_ref()?.tried.clone()
     }
 
     /// What is to be said of a job's picture, in which so many wavelengths are carried if that is known.
@@ -140,7 +153,7 @@ impl Accuracy {
     /// Whether the scene of a job was looked at and nothing is to be seen in it.
     pub(super) fn sees_nothing(&self, job: &Job) -> bool {
         self.known_of(job)
-            .is_some_and(|known| known.pilot.is_none())
+            .is_some_and(|known| known.looked.is_none())
     }
 
     /// The numbers that a job's wish comes to, once that is known.
@@ -187,7 +200,10 @@ impl Accuracy {
                 } = &packed;
                 let looked = Pilot::new(scene, plan, settings, wished, cancel);
                 if !cancel.is_cancelled() {
-                    tell(looked.map(|(pilot, _)| Arc::new(pilot)));
+                    tell(looked.map(|(pilot, tried)| Looked {
+                        pilot: Arc::new(pilot),
+                        tried: tried.map(Arc::new),
+                    }));
                 }
             });
             self.looking = running.map(|running| Looking {
@@ -234,11 +250,11 @@ impl Accuracy {
                 // It failed: the numbers stay as they are.
                 Err(Ended) => Some(None),
             };
-            if let Some(pilot) = found {
+            if let Some(looked) = found {
                 self.known = Some(Known {
                     view: looking.view.clone(),
                     wished: looking.wished,
-                    pilot,
+                    looked,
                 });
                 self.looking = None;
             }

@@ -15,9 +15,9 @@ pub(super) type Wake = Arc<dyn Fn() + Send + Sync>;
 /// How the work stands to the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rank {
-    /// The picture waits for it: on one core, and the picture has the others.
+    /// The next picture waits for it.
     WithThePicture,
-    /// For somebody who looks on: on all cores, where the system finds nothing else to do.
+    /// For somebody who looks on, where the system finds nothing else to do.
     BehindThePicture,
 }
 
@@ -90,7 +90,7 @@ pub(super) struct Ended;
 fn pool(rank: Rank) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new();
     match rank {
-        Rank::WithThePicture => pool.num_threads(1),
+        Rank::WithThePicture => pool,
         Rank::BehindThePicture => pool.start_handler(|_| {
             // Where the system does not let a thread give way, it works all the same.
             let _ = set_current_thread_priority(ThreadPriority::Min);

@@ -8,6 +8,9 @@ use super::{App, Closing, hands, panels, plots};
 
 /// While a file is read, how far it is is drawn this often.
 const LOADING_FRAME: Duration = Duration::from_millis(100);
+/// While a picture is worked on, its time is drawn this often, whether or not tiles come: what has to be worked out before them
+/// may take its time.
+const WORKING_FRAME: Duration = Duration::from_millis(250);
 
 impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
@@ -48,6 +51,9 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        if self.is_working() {
+            ctx.request_repaint_after(WORKING_FRAME);
+        }
         self.take_drops(&ctx);
         let mut commands = self.take_keys(&ctx);
 

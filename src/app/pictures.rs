@@ -44,6 +44,13 @@ impl App {
         self.generation().is_some() && self.picture.generation() == self.generation()
     }
 
+    /// Whether a picture is on its way.
+    pub(super) fn is_working(&self) -> bool {
+        let progress = &self.picture.progress;
+        let has_ended = progress.finished || progress.failure.is_some();
+        self.submitted.is_some() && !(self.renders_newest() && has_ended)
+    }
+
     /// Whether the picture is of the open volume and of the job submitted last, however coarse.
     pub(super) fn shows_newest(&self) -> bool {
         let of_the_open_volume = match (self.document.volume(), &self.submitted) {
@@ -158,7 +165,8 @@ impl App {
                     .as_ref()
                     .is_some_and(|it| chosen && is_the_same_view(&it.job, &job));
                 let generation = if is_the_same_view {
-                    self.engine.refine(job.clone())
+                    let tried = self.accuracy.tried(&job);
+                    self.engine.refine(job.clone(), tried)
                 } else {
                     self.engine.submit(job.clone())
                 };

@@ -3,6 +3,7 @@
 
 use std::error::Error;
 use std::io::{self, IsTerminal as _, Write as _};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -31,6 +32,9 @@ pub(super) fn error(error: &dyn Error) {
 /// Steps of a progress bar: a tenth of a percent.
 const STEPS: f64 = 1000.0;
 
+/// How often its time is drawn anew.
+const TICK: Duration = Duration::from_millis(250);
+
 /// A bar on a terminal, nothing in a pipe.
 pub(super) fn progress_bar() -> ProgressBar {
     if !io::stderr().is_terminal() {
@@ -38,6 +42,8 @@ pub(super) fn progress_bar() -> ProgressBar {
     }
     let bar = ProgressBar::new(STEPS as u64);
     let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed}, {eta} to go");
+    // What is worked out before the first rays tells no share: the time goes on to show that it works.
+    bar.enable_steady_tick(TICK);
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 

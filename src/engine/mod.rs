@@ -38,6 +38,7 @@ pub struct Engine {
 
 /// What a job leaves to the next one.
 struct Before {
+    generation: Generation,
     scene: Scene,
     volume: Arc<Volume>,
     decisions: Vec<Decision>,
@@ -64,9 +65,17 @@ struct Shared {
 struct Waiting {
     generation: Generation,
     job: Job,
-    /// Whether it shows what the one before shows, with other numbers: then there is no need for coarse passes.
-    is_the_same_view: bool,
+    /// What it shows in the same way with other numbers, if it does.
+    refines: Option<Refined>,
     submitted: Instant,
+}
+
+/// What is known of a job that shows what another shows, with other numbers.
+struct Refined {
+    /// The other.
+    generation: Generation,
+    /// A plan of the same scene, whose fields may serve.
+    tried: Option<Arc<Plan>>,
 }
 
 /// A poisoned lock guards data that is whole at every moment: a panic between two pushes leaves a valid list.
@@ -116,22 +125,24 @@ impl Engine {
 
     /// Renders this job from now on; whatever was running, waiting or not yet drained is forgotten.
     pub fn submit(&self, job: Job) -> Generation {
-        self.take(job, false)
+        self.take(job, |_| None)
     }
 
     /// The same for a job that shows what the one before shows, with other numbers: no coarse picture of it takes the place of
-    /// a fine one.
-    pub fn refine(&self, job: Job) -> Generation {
-        self.take(job, true)
+    /// a fine one, and what was worked out for that, or for a plan that somebody `tried` with the same scene, is not worked out
+    /// again.
+    pub fn refine(&self, job: Job, tried: Option<Arc<Plan>>) -> Generation {
+        self.take(job, |generation| Some(Refined { generation, tried }))
     }
 
-    fn take(&self, job: Job, is_the_same_view: bool) -> Generation {
+    fn take(&self, job: Job, refines: impl FnOnce(Generation) -> Option<Refined>) -> Generation {
         let mut waiting = lock(&self.shared.waiting);
+        let before = Generation(self.shared.current.load(Ordering::SeqCst));
         let generation = self.shared.next_generation();
         *waiting = Some(Waiting {
             generation,
             job,
-            is_the_same_view,
+            refines: refines(before),
             submitted: Instant::now(),
         });
         drop(waiting);
@@ -238,7 +249,19 @@ impl Shared {
         // Of another volume nothing says what was on show of this one.
         let decided = before.filter(|before| Arc::ptr_eq(&before.volume, &job.volume));
         let decided = decided.map_or(&[][..], |before| &before.decisions);
-        let plan = Arc::new(Plan::after(&scene, &job.settings, decided));
+        let mut plan = Plan::after(&scene, &job.settings, decided);
+        // A job that was overtaken before it began is not what this one refines.
+        let refined = next.refines.as_ref().zip(before);
+        let refined = refined.filter(|(refined, before)| refined.generation == before.generation);
+        if let Some((refined, _)) = refined {
+            let packed = lock(&self.packed).clone();
+            let packed = packed.filter(|packed| packed.generation == refined.generation);
+            let known = [packed.map(|packed| packed.plan), refined.tried.clone()];
+            for known in known.iter().flatten() {
+                plan.take_over(known);
+            }
+        }
+        let plan = Arc::new(plan);
         let replaced = lock(&self.packed).replace(Packed {
             generation,
             scene: scene.clone(),
@@ -249,7 +272,7 @@ impl Shared {
         });
         // What may be the last of an old volume is freed outside the lock.
         drop(replaced);
-        let shows_enough = before.is_some_and(|before| before.is_fine) && next.is_the_same_view;
+        let shows_enough = refined.is_some_and(|(_, before)| before.is_fine);
         let audience = if shows_enough {
             pass::Audience::Still
         } else {
@@ -274,6 +297,7 @@ impl Shared {
             }
         }
         Before {
+            generation,
             scene,
             volume: Arc::clone(&job.volume),
             decisions: plan.decisions.clone(),

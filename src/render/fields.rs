@@ -70,6 +70,12 @@ pub struct Bent {
 }
 
 impl Fields {
+    /// Whether the light that is scattered in both was worked out once, and so is of one scene.
+    pub fn shares_scattered_light(&self, other: &Self) -> bool {
+        let pair = self.scatter.as_ref().zip(other.scatter.as_ref());
+        pair.is_some_and(|(one, other)| Arc::ptr_eq(one, other))
+    }
+
     /// Works out in the calling thread's rayon pool what is not `known`; `None` if cancelled. Bent light is known.
     pub(super) fn new(
         scene: &Scene,

@@ -71,6 +71,10 @@ const FIELD_SET: u32 = 16;
 /// unless it is a thousand times as bright as what is in front.
 const OPAQUE_DEPTH: f64 = 24.0;
 
+/// Optical depth of a whole fire below which it counts as clear: at 5000 K, 4e9 cd/m², it would shine with 4e-15 cd/m², where
+/// an eye sees 1e-6 at the best. The depths of its steps would be denormal numbers, which many processors are slow at.
+const LEAST_DEPTH: f64 = 1e-24;
+
 impl Tables {
     /// Bakes the laws for given wavelengths, at most [`MAX_NODES`] of them, with these features of the gas, and with or
     /// without scattering.
@@ -90,12 +94,22 @@ impl Tables {
                 [0.0; 2]
             }
         };
+        let medium = flame.medium();
+        let diagonal_m = medium.domain.size().length() * medium.voxel_size_m();
+        let thickest_m = f64::from(medium.peak_volume_fraction()) * diagonal_m;
+        let told = |for_each_unit: f64| {
+            if for_each_unit * thickest_m < LEAST_DEPTH {
+                0.0
+            } else {
+                for_each_unit as f32
+            }
+        };
         let nodes: Vec<Node> = wavelengths
             .nodes_nm
             .iter()
             .map(|&nm| Node {
-                absorption: flame.absorption_per_sample(nm) as f32,
-                scattering: scattering(nm).map(|s| s as f32),
+                absorption: told(flame.absorption_per_sample(nm)),
+                scattering: scattering(nm).map(told),
                 asymmetry: flame.asymmetry(nm) as f32,
                 planck_scale: (blackbody::FIRST_RADIATION_CONSTANT / nm.powi(5)) as f32,
                 planck_exponent_k: (blackbody::SECOND_RADIATION_CONSTANT_NM_K / nm) as f32,
@@ -145,5 +159,42 @@ impl Tables {
     /// How many numbers light is carried in: nodes, then features.
     pub fn channels(&self) -> usize {
         self.nodes.len() + self.features.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use std::sync::Arc;
+
+    use crate::project::Project;
+    use crate::render::Plan;
+    use crate::volume::procedural;
+
+    #[test]
+    fn so_little_soot_that_no_eye_sees_it_is_none() {
+        let torch = Arc::new(procedural::torch());
+        // The torch's depth is of the order of 1.
+        for (amount, is_told) in [
+            ("1", true),
+            ("1e-20", true),
+            ("1e-30", false),
+            ("1e-36", false),
+        ] {
+            let mut project = Project::default();
+            project
+                .set_all([
+                    format!("soot.amount={amount}").as_str(),
+                    "effects.scattering=on",
+                ])
+                .unwrap();
+            let job = project.job(&torch).unwrap();
+            let plan = Plan::new(&job.scene(None), &job.settings);
+            for node in &plan.tables.nodes {
+                assert_eq!(node.absorption > 0.0, is_told, "{amount}: {node:?}");
+                assert!(node.scattering[0] == 0.0 || is_told, "{amount}: {node:?}");
+            }
+        }
     }
 }

@@ -251,6 +251,9 @@ fn time_left(progress: &Progress, elapsed: f64) -> String {
     let share = f64::from(share(progress));
     if progress.finished {
         "done".to_owned()
+    } else if progress.done > 0 && progress.rays_in_pass == 0 {
+        // Light from all sides is worked out before a pass's first rays.
+        "preparing…".to_owned()
     } else if share > TOO_EARLY {
         format!("{:.1} s left", elapsed * (1.0 - share) / share)
     } else {
@@ -312,6 +315,8 @@ mod tests {
         progress.finished = true;
         assert_eq!(time_left(&progress, 2.0), "done");
         assert_eq!(time_left(&ladder(0, 0), 0.1), "… s left");
+        // Nothing is told of a pass that has not begun.
+        assert_eq!(time_left(&ladder(3, 0), 2.0), "preparing…");
     }
 
     #[test]
