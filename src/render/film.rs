@@ -2,7 +2,12 @@
 
 use std::ops::Range;
 
-use super::march::PACKET_SIDE;
+use crate::math::lanes::LANES;
+
+/// Width and height of a packet, the rays that are marched side by side.
+pub const PACKET_SIDE: u32 = 4;
+
+const _: () = assert!((PACKET_SIDE * PACKET_SIDE) as usize == LANES);
 
 /// What one ray, or the mean of many, leaves on the film.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

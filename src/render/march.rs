@@ -34,11 +34,6 @@ use super::tables::Tables;
 use super::way::{End, Way, Ways};
 use crate::scene::stage::Hit;
 
-/// Width and height of a packet in rays.
-pub const PACKET_SIDE: u32 = 4;
-
-const _: () = assert!((PACKET_SIDE * PACKET_SIDE) as usize == LANES);
-
 /// Where a ray may meet something of which nothing is known.
 const EVERYWHERE: Option<[f64; 2]> = Some([0.0, f64::INFINITY]);
 

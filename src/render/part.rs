@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::clock::{timed, timed_alone};
 use super::difference::LIT;
-use super::march::PACKET_SIDE;
+use super::film::PACKET_SIDE;
 use super::packets::{Packets, Points};
 use super::{Cancel, Level, Pass, Plan, render_pass, subpixel};
 use crate::math::lanes::LANES;

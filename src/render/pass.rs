@@ -2,8 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use super::film::{Pixel, Tile};
-use super::march::PACKET_SIDE;
+use super::film::{PACKET_SIDE, Pixel, Tile};
 use super::packets::Packets;
 use super::{Cancel, Level, Plan, Settings, subpixel};
 use crate::math::lanes::LANES;
