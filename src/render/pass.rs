@@ -134,7 +134,7 @@ pub fn render_mosaic(
     })
 }
 
-/// Upper left pixels of all packets in the order of a mosaic.
+/// Upper left pixels of all packets in the order of a mosaic, those of each size of block from the centre outwards.
 fn mosaic(size: [u32; 2]) -> Vec<[u32; 2]> {
     let mut before = None;
     let mut packets = Vec::new();
@@ -142,7 +142,9 @@ fn mosaic(size: [u32; 2]) -> Vec<[u32; 2]> {
         let corners = |axis: usize| (0..size[axis]).step_by(side as usize);
         let all = corners(1).flat_map(|y| corners(0).map(move |x| [x, y]));
         let is_new = |at: &[u32; 2]| before.is_none_or(|side: u32| at.iter().any(|v| v % side > 0));
-        packets.extend(all.filter(is_new));
+        let mut new: Vec<[u32; 2]> = all.filter(is_new).collect();
+        sort_centre_out(&mut new, PACKET_SIDE, size);
+        packets.extend(new);
         before = Some(side);
     }
     packets
@@ -174,12 +176,17 @@ fn centre_out(rays: [u32; 2]) -> Vec<[u32; 2]> {
     let mut tiles: Vec<[u32; 2]> = corners(1)
         .flat_map(|y| corners(0).map(move |x| [x, y]))
         .collect();
-    let from_centre = |corner: u32, side: u32| {
-        let doubled = i64::from(2 * corner + TILE) - i64::from(side);
+    sort_centre_out(&mut tiles, TILE, rays);
+    tiles
+}
+
+/// Brings squares of this side, told by their upper left corners, into the order of their distance from the centre.
+fn sort_centre_out(corners: &mut [[u32; 2]], side: u32, size: [u32; 2]) {
+    let from_centre = |corner: u32, length: u32| {
+        let doubled = i64::from(2 * corner + side) - i64::from(length);
         doubled * doubled
     };
-    tiles.sort_by_key(|&[x, y]| from_centre(x, rays[0]) + from_centre(y, rays[1]));
-    tiles
+    corners.sort_by_key(|&[x, y]| from_centre(x, size[0]) + from_centre(y, size[1]));
 }
 
 /// `None` if cancelled.
@@ -275,7 +282,10 @@ mod tests {
         sorted.dedup();
         assert_eq!(sorted.len(), packets.len());
         assert_eq!(packets.len(), 18 * 9);
-        let first = [0, 32].map(|y| [0, 32, 64].map(|x| [x, y])).concat();
-        assert_eq!(packets[..6], first);
+        let mut first = packets[..6].to_vec();
+        assert_eq!(first[0], [32, 0]);
+        first.sort_unstable();
+        let blocks = [0, 32, 64].map(|x| [0, 32].map(|y| [x, y])).concat();
+        assert_eq!(first, blocks);
     }
 }

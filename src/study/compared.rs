@@ -29,8 +29,8 @@ pub fn is_the_reference(numbers: Numbers) -> bool {
 }
 
 /// How different each pixel of a picture looks from its reference, ΔE_ITP, row by row; none if they are not of one size. Where
-/// `known` says that there is no reference yet it is that of the nearest block of the mosaic, and not a number where that is
-/// not there either.
+/// `known` says that there is no reference yet it is the mean over the packet that stands for its block of the mosaic, and not a
+/// number where that is not there either.
 pub fn apart(pilot: &Pilot, reference: &Film, known: &[bool], picture: &Film) -> Vec<f32> {
     if reference.size() != picture.size() {
         return Vec::new();
@@ -46,16 +46,25 @@ pub fn apart(pilot: &Pilot, reference: &Film, known: &[bool], picture: &Film) ->
         })
         .collect();
     let [width, height] = reference.size();
-    let [.., packet] = MOSAIC;
-    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        // The same place within the packet in the corner of the block.
-        let within = |side: u32| [x, y].map(|at| (at / side * side + at % packet) as usize);
-        let index = |[x, y]: [usize; 2]| y * width as usize + x;
-        let here = index([x as usize, y as usize]);
-        if !known[here] {
-            let blocks = MOSAIC.into_iter().rev().map(|side| index(within(side)));
-            let there = blocks.filter(|&at| known.get(at).copied().unwrap_or(false));
-            apart[here] = there.map(|at| apart[at]).next().unwrap_or(f32::NAN);
+    let [.., side] = MOSAIC;
+    let across = width.div_ceil(side);
+    let places = || (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+    let packet = |[x, y]: [u32; 2]| (y / side * across + x / side) as usize;
+    let mut packets = vec![(0.0_f32, 0.0_f32); (across * height.div_ceil(side)) as usize];
+    for (place, (apart, _)) in places()
+        .zip(apart.iter().zip(known))
+        .filter(|(_, (_, known))| **known)
+    {
+        let (sum, count) = &mut packets[packet(place)];
+        *sum += apart;
+        *count += 1.0;
+    }
+    for (place, (apart, known)) in places().zip(apart.iter_mut().zip(known)) {
+        if !known {
+            let corner = |side: u32| packet(place.map(|at| at / side * side));
+            let blocks = MOSAIC.into_iter().rev().map(|side| packets[corner(side)]);
+            let there = blocks.into_iter().find(|(_, count)| *count > 0.0);
+            *apart = there.map_or(f32::NAN, |(sum, count)| sum / count);
         }
     }
     apart
