@@ -176,6 +176,7 @@ fn a_whole_picture_is_measured_against_the_reference_pixel_by_pixel() {
         &looked.scene,
         &plan,
         &looked.settings,
+        REFERENCE,
         &Cancel::never(),
         &|tile| film.lock().unwrap().merge(&tile),
     );

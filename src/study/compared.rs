@@ -2,30 +2,25 @@
 
 use super::numbers::Numbers;
 use super::pilot::Pilot;
-use super::report::REFERENCE;
 use super::sight::{Error, Sight};
 use crate::render::film::{Film, Tile};
 use crate::render::pass::MOSAIC;
 use crate::render::{Cancel, Plan, Settings, render_mosaic};
 use crate::scene::Scene;
 
-/// Renders the picture that others are compared with, as large as these settings have it and with their effects, as a mosaic that
-/// becomes finer. In the calling thread's rayon pool; `false` if cancelled.
+/// Renders a picture that others are compared with, by these numbers, as large as the settings have it and with their effects, as
+/// a mosaic that becomes finer. In the calling thread's rayon pool; `false` if cancelled.
 pub fn render_reference(
     scene: &Scene,
     plan: &Plan,
     settings: &Settings,
+    numbers: Numbers,
     cancel: &Cancel,
     sink: &(dyn Fn(Tile) + Sync),
 ) -> bool {
-    let settings = REFERENCE.within(settings);
+    let settings = numbers.within(settings);
     let plan = plan.at(scene, &settings);
     render_mosaic(scene, &plan, &settings, cancel, sink)
-}
-
-/// Whether a picture with these numbers is its own reference.
-pub fn is_the_reference(numbers: Numbers) -> bool {
-    numbers == REFERENCE
 }
 
 /// How different each pixel of a picture looks from its reference, ΔE_ITP, row by row; none if they are not of one size. Where

@@ -27,9 +27,9 @@ mod variant;
 
 pub use aim::{Aim, aim};
 pub use chart::{Chart, ChartError};
-pub use compared::{apart, is_the_reference, measured, render_reference};
-pub use numbers::{Numbers, RAYS, STEPS};
+pub use compared::{apart, measured, render_reference};
+pub use numbers::{Numbers, RAYS, REFERENCE, STEPS};
 pub use pilot::{Choice, Pilot, Split};
-pub use report::{Point, REFERENCE, Report, Status, report};
+pub use report::{Point, Report, Status, report};
 pub use sight::Error;
 pub use variant::{Family, Variant};

@@ -9,6 +9,13 @@ pub const STEPS: [f64; 7] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
 /// Rays for each pixel that are tried.
 pub const RAYS: [u32; 5] = [1, 2, 4, 8, 16];
 
+/// What the pictures of a report are compared with.
+pub const REFERENCE: Numbers = Numbers {
+    step_voxels: 0.125,
+    wavelengths: WavelengthSet::Plain(64),
+    samples_per_pixel: 16,
+};
+
 /// How exactly a picture is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Numbers {

@@ -5,10 +5,10 @@
 
 use rayon::prelude::*;
 
-use super::numbers::{Numbers, RAYS};
+use super::numbers::{Numbers, RAYS, REFERENCE};
 use super::sight::{Error, Picture, Sight};
 use super::tried::{self, Tried};
-use crate::project::Accuracy;
+use crate::project::{Accuracy, Quality};
 use crate::render::part::{LOOK_STEP_VOXELS, Part};
 use crate::render::{Cancel, Plan, Settings};
 use crate::scene::{Scene, WavelengthSet};
@@ -322,6 +322,14 @@ impl Pilot {
         self.choose_from(all, wished.target_de)
             .or(quickest)
             .unwrap_or(given)
+    }
+
+    /// The numbers of a picture that others may be compared with, pixel by pixel: those of the highest quality. The reference's
+    /// own take many times as long, and no eye tells the two apart.
+    pub fn finest(&self) -> Numbers {
+        let all = self.table.iter().map(|choice| choice.numbers).collect();
+        self.choose_from(all, Quality::Reference.target_de())
+            .unwrap_or(REFERENCE)
     }
 
     fn choose_from(&self, all: Vec<Numbers>, target_de: f64) -> Option<Numbers> {

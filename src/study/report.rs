@@ -4,7 +4,7 @@
 //! effect that the plan has found can be seen. What it is off by itself is estimated by the pilot, and no error is told below it.
 
 use super::front::front;
-use super::numbers::Numbers;
+use super::numbers::{Numbers, REFERENCE};
 use super::pilot::{Choice, Pilot};
 use super::sight::{Error, Sight};
 use super::variant::{Family, Variant, variants};
@@ -13,7 +13,7 @@ use crate::render::clock::{Took, timed_on_pool};
 use crate::render::part::Part;
 use crate::render::plan::Effect;
 use crate::render::{Cancel, Level, Plan, Settings};
-use crate::scene::{Interpolation, Scene, WavelengthSet};
+use crate::scene::{Interpolation, Scene};
 
 /// Most packets of sixteen pixels in the light.
 const PACKETS: usize = 56;
@@ -22,13 +22,6 @@ const ROUNDS: usize = 3;
 const FEW_ROUNDS: usize = 2;
 /// Seconds of processor time of a part from which on it is rendered less often.
 const LONG_S: f64 = 0.2;
-
-/// What the pictures of a report are compared with.
-pub const REFERENCE: Numbers = Numbers {
-    step_voxels: 0.125,
-    wavelengths: WavelengthSet::Plain(64),
-    samples_per_pixel: 16,
-};
 
 /// How a variant went.
 #[derive(Debug, Clone, PartialEq)]

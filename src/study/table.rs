@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::report::{Point, REFERENCE, Report, Status};
+use super::numbers::REFERENCE;
+use super::report::{Point, Report, Status};
 use super::variant::Family;
 
 /// The columns.

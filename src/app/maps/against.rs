@@ -9,7 +9,7 @@ use crate::app::background::{Ended, Rank, Running, Wake};
 use crate::engine::Picture;
 use crate::project::Job;
 use crate::render::{Film, Tile};
-use crate::study::{self, Error};
+use crate::study::{self, Error, Numbers};
 
 /// The reference, as far as it is, and what the comparison with the picture has found.
 pub(super) struct Against {
@@ -133,14 +133,14 @@ impl Against {
         if self.reference.is_none()
             && wanted
             && about.picture.progress.finished
-            && about.pilot.is_some()
+            && let Some(pilot) = about.pilot
         {
-            self.render(view, about);
+            self.render(view, pilot.finest(), about);
         }
         self.compare(about);
     }
 
-    fn render(&mut self, view: Job, about: &About<'_>) {
+    fn render(&mut self, view: Job, numbers: Numbers, about: &About<'_>) {
         let Some(packed) = about.packed.clone() else {
             // The engine was publishing at this very moment: ask again.
             (self.wake)();
@@ -151,7 +151,7 @@ impl Against {
         let rank = Rank::BehindThePicture;
         let rendering = Running::begin("reference", rank, &self.wake, move |cancel, tell| {
             let (scene, plan) = (&packed.scene, &packed.plan);
-            study::render_reference(scene, plan, &packed.settings, cancel, tell);
+            study::render_reference(scene, plan, &packed.settings, numbers, cancel, tell);
         });
         self.reference = Some(Reference {
             view,
@@ -207,7 +207,7 @@ impl Against {
         self.compared = Some(Instant::now());
         let rank = Rank::WithThePicture;
         self.comparing = Running::begin("compare", rank, &self.wake, move |_, tell| {
-            let own = pilot.own_error();
+            let own = pilot.choice(pilot.finest()).error.all;
             let whole = of.is_whole.then(|| study::measured(&film, &picture, own));
             tell(Found {
                 of,
