@@ -122,6 +122,8 @@ impl App {
         let exporter = Exporter::new(Arc::new(move || export_wake.request_repaint()));
         let study_wake = ctx.clone();
         let study_wake: background::Wake = Arc::new(move || study_wake.request_repaint());
+        let map_wake = ctx.clone();
+        let map_wake = Arc::new(move || map_wake.request_repaint_after(maps::ANEW));
         let load_wake = ctx.clone();
         let mut loader = Loader::new(Arc::new(move || load_wake.request_repaint()));
         let first = match project.volume.path.as_slice() {
@@ -144,7 +146,7 @@ impl App {
             picture: Picture::new([1, 1]),
             meter: Meter::default(),
             told: None,
-            maps: Maps::new(Arc::clone(&study_wake)),
+            maps: Maps::new(map_wake),
             accuracy: Accuracy::new(study_wake),
             snapshots: Snapshots::new(ctx),
             canvas: Canvas::new(creation.wgpu_render_state.clone()),

@@ -15,8 +15,9 @@ use crate::engine::{Packed, Picture};
 use crate::project::Job;
 use crate::study::{Error, Pilot};
 
-/// While tiles come in, a map is drawn anew this often: it takes as long as it takes to look through the picture.
-const ANEW: Duration = Duration::from_millis(250);
+/// While tiles come in, a map is drawn anew this often: it takes as long as it takes to look through the picture, and drawing takes
+/// its time from what works behind.
+pub(super) const ANEW: Duration = Duration::from_millis(250);
 
 /// What is mapped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
