@@ -105,7 +105,17 @@ impl Pilot {
         let part = Part::lit(scene, plan, most.clamp(LEAST_PACKETS, PACKETS), cancel)?;
         let weights = part.weights();
 
-        let mut sets = tried::sets(scene, plan, settings, &part, cancel)?;
+        // Where light that was scattered or falls on a stage calls for more wavelengths than the fewest, a plan takes as many.
+        let fewest = Settings {
+            wavelengths: WavelengthSet::ALL[0],
+            ..*settings
+        };
+        let least = if wished.wavelengths {
+            Plan::after(scene, &fewest, &plan.decisions).wavelengths()
+        } else {
+            0
+        };
+        let mut sets = tried::sets(scene, plan, settings, least, &part, cancel)?;
         let finest = sets.iter().find(|it| it.what == FINEST_SET)?.xyz.clone();
         let sight = Sight::of(&finest, weights.clone());
         // Where only the stage is lit, direct light is none.

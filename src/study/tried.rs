@@ -37,11 +37,12 @@ impl<T> Tried<T> {
     }
 }
 
-/// Every set of wavelengths, without light from all sides.
+/// Every set of at least so many wavelengths, without light from all sides.
 pub(super) fn sets(
     scene: &Scene,
     plan: &Plan,
     settings: &Settings,
+    least: u32,
     part: &Part,
     cancel: &Cancel,
 ) -> Option<Vec<Tried<WavelengthSet>>> {
@@ -54,7 +55,8 @@ pub(super) fn sets(
         let rendered = part.render(scene, &direct, STEP, 1, cancel)?;
         Some(Tried::new(set, rendered))
     };
-    WavelengthSet::ALL.into_iter().map(each).collect()
+    let all = WavelengthSet::ALL.into_iter();
+    all.filter(|set| set.count() >= least).map(each).collect()
 }
 
 /// Steps, longest first, with one that was set by hand.
