@@ -29,7 +29,7 @@ use sootlight::colour::display::BakedView;
 use sootlight::project::set::KEYS;
 use sootlight::project::{Project, ProjectError};
 use sootlight::render::develop::{Metering, develop, flaws_of};
-use sootlight::render::{Cancel, render_still};
+use sootlight::render::{Cancel, Plan, render_planned};
 use sootlight::volume::{BuiltIn, Limits, Volume, open};
 
 use crate::common;
@@ -128,6 +128,8 @@ struct Seen {
     with: String,
     all: Duration,
     wrong: Vec<String>,
+    /// Least and greatest opacity, of that of what lets nothing through.
+    opacity: [f32; 2],
 }
 
 /// No picture of so few pixels takes so long, on any machine.
@@ -136,20 +138,22 @@ const PATIENCE: Duration = Duration::from_mins(3);
 /// Ends the process if what `now` names does not come to its end: nothing else can stop what never asks whether it shall.
 fn watch(now: &Arc<Mutex<String>>) {
     let now = Arc::downgrade(now);
+    let begun = Instant::now();
     std::thread::spawn(move || {
-        let mut before = String::new();
         while let Some(now) = now.upgrade() {
-            let with = now.lock().unwrap().clone();
-            drop(now);
-            if !with.is_empty() && with == before {
-                eprintln!("never ends: {with}");
+            if begun.elapsed() > PATIENCE {
+                eprintln!("never ends: {}", now.lock().unwrap());
                 std::process::exit(3);
             }
-            before = with;
-            std::thread::sleep(PATIENCE);
+            drop(now);
+            std::thread::sleep(Duration::from_secs(1));
         }
     });
 }
+
+/// Least and greatest share of white light that a pixel takes: nothing and all, and on either side the thousandth within which
+/// fitted wavelengths are as good as all.
+const OPACITY: std::ops::RangeInclusive<f32> = -1e-3..=1.001;
 
 fn project(sets: &[&String]) -> Project {
     let mut project = Project::default();
@@ -176,8 +180,9 @@ impl Seen {
 
     fn told(&self) -> String {
         format!(
-            "{:.1} s, at most {:.2} s without progress: {}",
+            "{:.1} s, opacities {:?}, at most {:.2} s without progress: {}",
             self.all.as_secs_f64(),
+            self.opacity,
             self.silence.as_secs_f64(),
             self.with
         )
@@ -198,18 +203,25 @@ fn reach(volume: &Arc<Volume>, sets: &[&String], seen: &mut Seen) -> Result<(), 
     let job = project.job(volume)?;
     let scene = job.scene(None);
     hear();
-    let frame = render_still(&scene, &job.settings, &Cancel::never(), &|_| hear()).unwrap();
+    let plan = Plan::new(&scene, &job.settings);
+    let opaque = plan.tables.opaque;
+    let never = Cancel::never();
+    let frame = render_planned(&scene, &plan, &job.settings, &never, &|_| hear()).unwrap();
     hear();
     let told: String = flaws_of(&frame.film).iter().collect();
     assert_eq!(told, "", "{sets:?}");
     for pixel in frame.film.pixels() {
-        let lowest = pixel.xyz.iter().chain(&pixel.opacity).copied();
-        let lowest = lowest.fold(0.0, f32::min);
+        let lowest = pixel.xyz.iter().copied().fold(0.0, f32::min);
         // Of colours whose light is no more than a line's, X or Z may round below nothing.
         assert!(
             lowest >= -1e-3 * pixel.xyz[1].abs().max(1e-3),
             "{sets:?}: {pixel:?}"
         );
+        for (opacity, opaque) in pixel.opacity.iter().zip(opaque) {
+            let share = opacity / opaque as f32;
+            assert!(OPACITY.contains(&share), "{sets:?}: {pixel:?}");
+            seen.opacity = [seen.opacity[0].min(share), seen.opacity[1].max(share)];
+        }
     }
     let metering = Metering::of(&frame.film);
     let view = BakedView::new(&metering.view(&project.view()));

@@ -218,5 +218,5 @@ fn a_whole_picture_is_measured_against_the_reference_pixel_by_pixel() {
         (measured.de95 / expected.p95 - 1.0).abs() < 1e-3,
         "{measured:?} {expected:?}"
     );
-    assert_eq!(study::measured(&reference, &reference, own).unwrap(), own);
+    assert!(study::measured(&reference, &reference, own).is_none());
 }

@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
 use thread_priority::{ThreadPriority, set_current_thread_priority};
 
+use crate::engine::Engine;
 use crate::render::Cancel;
 
 /// What tells the window, from any thread, that there is something new.
@@ -90,7 +91,8 @@ pub(super) struct Ended;
 fn pool(rank: Rank) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new();
     match rank {
-        Rank::WithThePicture => pool,
+        // The window has what the picture leaves it.
+        Rank::WithThePicture => pool.num_threads(Engine::threads_beside_a_window()),
         Rank::BehindThePicture => pool.start_handler(|_| {
             // Where the system does not let a thread give way, it works all the same.
             let _ = set_current_thread_priority(ThreadPriority::Min);

@@ -71,6 +71,28 @@ pub(super) struct Step {
     open: Option<Arc<OpenVolume>>,
 }
 
+impl Step {
+    /// All that was set.
+    pub(super) fn project(&self) -> &Project {
+        &self.project
+    }
+
+    /// Whether the volume that it is about is in memory for its sake.
+    pub(super) fn holds_a_volume(&self) -> bool {
+        self.open.is_some()
+    }
+
+    /// Whether two are about one volume in memory.
+    pub(super) fn is_of_one_volume_with(&self, other: &Self) -> bool {
+        is_same(self.open.as_ref(), other.open.as_ref())
+    }
+
+    /// Holds the volume no more: it has to be read again.
+    pub(super) fn let_the_volume_go(&mut self) {
+        self.open = None;
+    }
+}
+
 /// One physical field of the open volume, for a person to check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldRow {

@@ -1,6 +1,7 @@
 //! What hands do to the whole window: keys, files let go over it, and the commands of panels.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, ViewportCommand};
@@ -8,7 +9,7 @@ use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, ViewportCommand};
 use super::files::{Request, paths_of};
 use super::maps::Map;
 use super::panels::Command;
-use super::snapshots::Way;
+use super::snapshots::{MOST, Way};
 use super::{App, Closing};
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
@@ -72,11 +73,7 @@ impl App {
                     self.snapshots.toggle(way);
                 }
                 Command::CompareWith(number) => self.snapshots.choose(number),
-                Command::RestoreSnapshot(number) => {
-                    if let Some(snapshot) = self.snapshots.get(number) {
-                        self.document.return_to(&snapshot.step);
-                    }
-                }
+                Command::RestoreSnapshot(number) => self.go_back_to(number),
                 Command::ForgetSnapshot(number) => self.snapshots.forget(number),
                 Command::Dismiss => self.notice = None,
                 Command::Restore => self.restore(),
@@ -101,12 +98,38 @@ impl App {
         }
     }
 
-    /// Keeps the picture on show, if there is one, with what is set.
+    /// Keeps the picture on show with what is set, if that is what it was made with; says why if not.
     fn grab(&mut self) {
-        if self.shows_newest() {
+        // What has changed in this frame is not on show yet.
+        self.follow();
+        let is_shown = self.canvas.can_show(self.picture.film().size());
+        let refused = if self.snapshots.is_full() {
+            format!("{MOST} snapshots are kept at most: forget one first.")
+        } else if !self.shows_a_fine_picture() || self.document.problem().is_some() {
+            "A snapshot is of a picture as sharp as its pixels: wait until this one is.".to_owned()
+        } else if !is_shown {
+            "This picture is too large to be shown, so nothing can be compared with it.".to_owned()
+        } else {
             let (view, title) = (self.view(), self.document.title());
             let step = self.document.step();
             self.snapshots.grab(&self.picture, &view, title, step);
+            return;
+        };
+        self.notice = Some(refused);
+    }
+
+    /// Sets what was set when a snapshot was grabbed; reads its volume again if that was let go.
+    fn go_back_to(&mut self, number: u64) {
+        let Some(snapshot) = self.snapshots.get(number) else {
+            return;
+        };
+        if snapshot.step.holds_a_volume() {
+            self.document.return_to(&snapshot.step);
+        } else {
+            let project = snapshot.step.project().clone();
+            let limits = project.volume.limits();
+            self.loader
+                .begin(Request::Session(Arc::new(project)), limits);
         }
     }
 
@@ -152,8 +175,14 @@ impl App {
             let shortcut = KeyboardShortcut::new(modifiers, key);
             ctx.input_mut(|input| input.consume_shortcut(&shortcut))
         };
+        // A key that is held down switches once; undo goes on and on.
+        let held = |key: Key| {
+            let is_repeat = |event: &Event| matches!(event, Event::Key { key: it, repeat: true, .. } if *it == key);
+            ctx.input(|input| input.events.iter().any(is_repeat))
+        };
         let mut commands: Vec<Command> = SHORTCUTS
             .into_iter()
+            .filter(|(modifiers, key, _)| !modifiers.is_none() || !held(*key))
             .filter_map(|(modifiers, key, command)| pressed(modifiers, key).then_some(command))
             .collect();
         // A menu that is open is what is meant: it closes itself.

@@ -94,7 +94,8 @@ impl App {
                     self.show(volume, |document, volume| {
                         document.replace_and(volume, |changed| changed.clone_from(&project))
                     });
-                    if self.document.project == *project {
+                    let was_left = self.autosave.left() == Some(&*project);
+                    if was_left && self.document.project == *project {
                         self.autosave.take_over(&project);
                     }
                 }

@@ -60,6 +60,17 @@ impl App {
         of_the_open_volume && self.renders_newest() && self.picture.progress.done > 0
     }
 
+    /// Whether the picture has a ray for each pixel, at least, and is of all that is set.
+    pub(super) fn shows_a_fine_picture(&self) -> bool {
+        let Some(submitted) = &self.submitted else {
+            return false;
+        };
+        let progress = &self.picture.progress;
+        let is_newest = self.document.last_job() == Some(&submitted.job) && self.shows_newest();
+        let mut whole = progress.passes.iter().take(progress.done);
+        is_newest && progress.failure.is_none() && whole.any(|pass| pass.stride == 1)
+    }
+
     /// Which effects are on show, each on or off, if that is known of the document as it stands.
     pub(super) fn effects_on_show(&self) -> Option<Effects> {
         let submitted = self.submitted.as_ref()?;
@@ -106,11 +117,7 @@ impl App {
         let Some(submitted) = &self.submitted else {
             return;
         };
-        let is_newest = self.document.last_job() == Some(&submitted.job) && self.renders_newest();
-        let mut whole = self.picture.progress.passes.iter();
-        let mut whole = whole.by_ref().take(self.picture.progress.done);
-        let failed = self.picture.progress.failure.is_some();
-        let is_fine = is_newest && !failed && whole.any(|pass| pass.stride == 1);
+        let is_fine = self.shows_a_fine_picture();
         let packed = if is_fine { self.engine.scene() } else { None };
         self.accuracy.follow(&submitted.job, packed, is_fine);
     }
@@ -123,6 +130,7 @@ impl App {
             picture: &self.picture,
             job: is_of_it.then_some(&submitted.job),
             pilot: self.accuracy.pilot(&submitted.job),
+            sees_nothing: self.accuracy.sees_nothing(&submitted.job),
             packed: self.engine.scene().filter(|_| is_of_it),
         };
         self.maps.follow(&about);

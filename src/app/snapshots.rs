@@ -7,8 +7,10 @@ use crate::colour::display::{BakedView, View};
 use crate::engine::Picture;
 use crate::render::Film;
 
-/// Most that are kept: each holds a picture, and the volume that it is of.
+/// Most that are kept: each holds a picture.
 pub(super) const MOST: usize = 12;
+/// Volumes that are kept in memory for their sake, the newest: they may be large, and can be read again.
+const MOST_VOLUMES: usize = 2;
 /// Longer side of a thumbnail, pixels.
 const THUMBNAIL: u32 = 160;
 
@@ -97,6 +99,23 @@ impl Snapshots {
             thumbnail: self.ctx.load_texture(name, image, TextureOptions::LINEAR),
         });
         self.chosen = self.newest;
+        self.let_volumes_go();
+    }
+
+    /// Holds no more than the newest few volumes.
+    fn let_volumes_go(&mut self) {
+        let mut held: Vec<Step> = Vec::new();
+        for snapshot in self.all.iter_mut().rev() {
+            let step = &mut snapshot.step;
+            if !step.holds_a_volume() || held.iter().any(|it| it.is_of_one_volume_with(step)) {
+                continue;
+            }
+            if held.len() < MOST_VOLUMES {
+                held.push(step.clone());
+            } else {
+                step.let_the_volume_go();
+            }
+        }
     }
 
     /// The one that the picture is compared with.
@@ -148,6 +167,11 @@ impl Snapshots {
         self.share = share.clamp(0.0, 1.0);
     }
 
+    /// The snapshot that is seen in place of the picture.
+    pub(super) fn flipped(&self) -> Option<&Snapshot> {
+        (self.way == Way::Flip).then(|| self.chosen()).flatten()
+    }
+
     /// What is seen of a snapshot: of which one, and how much of the picture's width from its left.
     pub(super) fn seen(&self) -> Option<(&Snapshot, f32)> {
         let share = match self.way {
@@ -187,9 +211,14 @@ fn thumbnail(film: &Film, view: &View) -> ColorImage {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use std::sync::Arc;
+
     use super::*;
     use crate::app::Document;
     use crate::project::Project;
+    use crate::volume::BuiltIn;
 
     fn with(count: usize) -> Snapshots {
         let mut all = Snapshots::new(&Context::default());
@@ -235,6 +264,22 @@ mod tests {
         assert_eq!(all.seen().map(|(it, _)| it.number), Some(1));
         all.forget(1);
         assert!(all.seen().is_none() && !all.close());
+    }
+
+    #[test]
+    fn the_newest_few_volumes_are_held() {
+        let mut all = Snapshots::new(&Context::default());
+        for flame in [BuiltIn::Torch, BuiltIn::Burner, BuiltIn::Spirit] {
+            let mut document = Document::new(Project::default());
+            document.open(Arc::new(flame.volume())).unwrap();
+            for _ in 0..2 {
+                let picture = Picture::new([4, 2]);
+                let step = document.step();
+                all.grab(&picture, &document.view(), document.title(), step);
+            }
+        }
+        let held = all.all().iter().map(|it| it.step.holds_a_volume());
+        assert!(held.eq([false, false, true, true, true, true]));
     }
 
     #[test]

@@ -7,11 +7,11 @@ use std::time::Instant;
 use super::develop::flaws_of;
 use super::still::render_until;
 use super::{Cancel, Plan, render_planned};
-use crate::project::Project;
+use crate::project::{Job, Project};
 use crate::volume::procedural;
 
-#[test]
-fn what_is_no_number_spoils_the_rays_that_come_to_it_and_no_other() {
+/// A small picture of the torch, of direct light along straight rays.
+fn torch() -> Job {
     let mut project = Project::default();
     project
         .set_all([
@@ -21,7 +21,12 @@ fn what_is_no_number_spoils_the_rays_that_come_to_it_and_no_other() {
             "effects.refraction=off",
         ])
         .unwrap();
-    let job = project.job(&Arc::new(procedural::torch())).unwrap();
+    project.job(&Arc::new(procedural::torch())).unwrap()
+}
+
+#[test]
+fn what_is_no_number_spoils_the_rays_that_come_to_it_and_no_other() {
+    let job = torch();
     let scene = job.scene(None);
     let plan = Plan::new(&scene, &job.settings);
     let render = |scene: &crate::scene::Scene| {
@@ -62,15 +67,7 @@ fn what_is_no_number_spoils_the_rays_that_come_to_it_and_no_other() {
 
 #[test]
 fn a_picture_whose_time_is_up_at_once_is_whole_and_says_so() {
-    let mut project = Project::default();
-    project
-        .set_all([
-            "render.size=[48, 64]",
-            "effects.scattering=off",
-            "effects.refraction=off",
-        ])
-        .unwrap();
-    let job = project.job(&Arc::new(procedural::torch())).unwrap();
+    let job = torch();
     let scene = job.scene(None);
     let plan = Plan::new(&scene, &job.settings);
     let now = Instant::now();

@@ -19,8 +19,9 @@ pub fn render_reference(
     sink: &(dyn Fn(Tile) + Sync),
 ) -> bool {
     let settings = numbers.within(settings);
-    let plan = plan.at(scene, &settings);
-    render_mosaic(scene, &plan, &settings, cancel, sink)
+    let mut at = plan.at(scene, &settings);
+    at.take_over(plan);
+    render_mosaic(scene, &at, &settings, cancel, sink)
 }
 
 /// How different each pixel of a picture looks from its reference, ΔE_ITP, row by row; none if they are not of one size. Where
@@ -65,8 +66,8 @@ pub fn apart(pilot: &Pilot, reference: &Film, known: &[bool], picture: &Film) ->
     apart
 }
 
-/// How far a whole picture is from its reference, and never nearer than the reference is off by itself. `None` where nothing is
-/// lit, or where they are not of one size.
+/// How far a whole picture is from its reference. `None` where it is nearer than the reference is off by itself, of which a
+/// comparison tells nothing; where nothing is lit; or where they are not of one size.
 pub fn measured(reference: &Film, picture: &Film, own: Error) -> Option<Error> {
     if reference.size() != picture.size() {
         return None;
@@ -78,5 +79,6 @@ pub fn measured(reference: &Film, picture: &Film, own: Error) -> Option<Error> {
             .collect::<Vec<_>>()
     });
     let sight = Sight::of(&reference, vec![1.0; reference.len()])?;
-    Some(sight.error(&reference, &picture).at_least(own))
+    let found = sight.error(&reference, &picture);
+    (found.de95 > own.de95).then(|| found.at_least(own))
 }

@@ -109,6 +109,22 @@ impl PicturePlace {
             clicked: response.clicked() && !response.double_clicked(),
         }
     }
+
+    /// The same without a pointer that is over a snapshot: what is there is not of this picture.
+    fn right_of(self, beside: &Beside<'_>) -> Self {
+        let line = wipe::line_x(self.canvas, self.picture, beside);
+        let is_over_it = |pointer: &[f64; 2]| {
+            self.picture.min.x + pointer[0] as f32 * self.picture.width() < line
+        };
+        if self.pointer.as_ref().is_some_and(is_over_it) {
+            return Self {
+                pointer: None,
+                clicked: false,
+                ..self
+            };
+        }
+        self
+    }
 }
 
 impl Canvas {
@@ -169,8 +185,8 @@ impl Canvas {
             film.map(|side| in_points(mapping.zoom * f64::from(side))),
             &response,
         );
-        let longest = self.longest_side();
-        if film.iter().any(|&side| side > longest) {
+        if !self.can_show(film) {
+            let longest = self.longest_side();
             let words = format!(
                 "The picture is too large to be shown: a side may have {longest} pixels on this graphics card. It \
                  can still be rendered to a file."
@@ -187,6 +203,7 @@ impl Canvas {
             self.draw(ui, below, &place, &content, over);
         }
         let beside = over.beside.filter(|_| ready);
+        let place = beside.map_or(place, |beside| place.right_of(&beside));
         let wiped = beside.and_then(|beside| wipe::show(ui, rect, place.picture, &beside));
 
         let scrolling = response.contains_pointer() && ui.input(InputState::is_scrolling);
@@ -201,6 +218,12 @@ impl Canvas {
             frame_all,
             scrolling,
         }
+    }
+
+    /// Whether a film of this size can be shown.
+    pub(super) fn can_show(&self, size: [u32; 2]) -> bool {
+        let longest = self.longest_side();
+        size.iter().all(|&side| side <= longest)
     }
 
     /// The longest side of a film that the graphics card takes, pixels.

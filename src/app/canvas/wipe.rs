@@ -1,7 +1,8 @@
 //! A snapshot beside the picture: what is seen of it, and the line between the two that a hand moves.
 
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Id, Key, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, CursorIcon, EventFilter, FontId, Id, Key, Rect, Sense, Stroke, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
 use crate::colour::display::View;
@@ -89,6 +90,14 @@ pub(super) fn show(ui: &mut Ui, canvas: Rect, picture: Rect, beside: &Beside<'_>
         .interact_pointer_pos()
         .filter(|_| response.dragged());
     let by_hand = dragged.map(|at| (at.x - picture.min.x) / picture.width().max(1.0));
+    if response.has_focus() {
+        // Arrows move the line, and not the focus.
+        let arrows = EventFilter {
+            horizontal_arrows: true,
+            ..EventFilter::default()
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    }
     let by_key = response.has_focus().then(|| {
         ui.input(|input| {
             let pressed = |key| f32::from(u8::from(input.key_pressed(key)));

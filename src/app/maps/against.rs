@@ -9,7 +9,7 @@ use crate::app::background::{Ended, Rank, Running, Wake};
 use crate::engine::Picture;
 use crate::project::Job;
 use crate::render::{Film, Tile};
-use crate::study::{self, Error, Numbers};
+use crate::study::{self, Choice, Error};
 
 /// The reference, as far as it is, and what the comparison with the picture has found.
 pub(super) struct Against {
@@ -17,6 +17,10 @@ pub(super) struct Against {
     reference: Option<Reference>,
     comparing: Option<Running<Found>>,
     found: Option<Found>,
+    /// The picture that is compared, and which state of it: as long as it does not change it is not copied again.
+    compares: Option<(u64, Arc<Film>)>,
+    /// Whether nothing is to be seen in the scene.
+    sees_nothing: bool,
     /// When the last comparison began.
     compared: Option<Instant>,
     /// Rises with what was found.
@@ -33,6 +37,8 @@ struct Reference {
     /// Which of its pixels are there, row by row.
     known: Arc<Vec<bool>>,
     pixels: usize,
+    /// How far it is itself from the finest there is.
+    own: Error,
     rendering: Option<Running<Tile>>,
     /// Whether it ended before it was whole.
     failed: bool,
@@ -81,6 +87,8 @@ impl Against {
             reference: None,
             comparing: None,
             found: None,
+            compares: None,
+            sees_nothing: false,
             compared: None,
             version: 0,
         }
@@ -106,10 +114,18 @@ impl Against {
     }
 
     /// How far the reference is, in words.
-    pub(super) fn progress_words(&self) -> String {
+    pub(super) fn progress_words(&self, picture: &Picture) -> String {
+        let is_compared = |found: &Found| found.of.is_whole && found.of.picture == picture.version;
         match &self.reference {
+            None if self.sees_nothing => "nothing is seen in this picture".to_owned(),
             None => "the reference waits for the picture".to_owned(),
-            Some(reference) if reference.is_whole() => "measured".to_owned(),
+            Some(reference) if reference.is_whole() => {
+                if self.found.as_ref().is_some_and(is_compared) {
+                    "measured".to_owned()
+                } else {
+                    "of the picture before".to_owned()
+                }
+            }
             Some(reference) if reference.failed => "the reference failed".to_owned(),
             Some(reference) => {
                 let share = reference.pixels as f64 / reference.known.len().max(1) as f64;
@@ -123,10 +139,12 @@ impl Against {
     pub(super) fn follow(&mut self, about: &About<'_>, wanted: bool) {
         self.receive();
         let Some(job) = about.job else { return };
+        self.sees_nothing = about.sees_nothing;
         let view = view_of(job);
         if self.reference.as_ref().is_some_and(|it| it.view != view) {
             self.reference = None;
             self.comparing = None;
+            self.compares = None;
             self.found = None;
             self.version += 1;
         }
@@ -135,12 +153,13 @@ impl Against {
             && about.picture.progress.finished
             && let Some(pilot) = about.pilot
         {
-            self.render(view, pilot.finest(), about);
+            let finest = pilot.choice(pilot.finest());
+            self.render(view, finest, about);
         }
         self.compare(about);
     }
 
-    fn render(&mut self, view: Job, numbers: Numbers, about: &About<'_>) {
+    fn render(&mut self, view: Job, finest: Choice, about: &About<'_>) {
         let Some(packed) = about.packed.clone() else {
             // The engine was publishing at this very moment: ask again.
             (self.wake)();
@@ -151,6 +170,7 @@ impl Against {
         let rank = Rank::BehindThePicture;
         let rendering = Running::begin("reference", rank, &self.wake, move |cancel, tell| {
             let (scene, plan) = (&packed.scene, &packed.plan);
+            let numbers = finest.numbers;
             study::render_reference(scene, plan, &packed.settings, numbers, cancel, tell);
         });
         self.reference = Some(Reference {
@@ -158,13 +178,17 @@ impl Against {
             known: Arc::new(vec![false; film.pixels().len()]),
             film: Arc::new(film),
             pixels: 0,
+            own: finest.error.all,
             failed: rendering.is_none(),
             rendering,
         });
     }
 
     fn receive(&mut self) {
-        if let Some(reference) = &mut self.reference {
+        // While it is compared it stays as it is, and needs no copy; what has come waits.
+        if let Some(reference) = &mut self.reference
+            && self.comparing.is_none()
+        {
             while let Some(rendering) = &reference.rendering {
                 match rendering.next() {
                     Ok(Some(tile)) => reference.take(&tile),
@@ -201,13 +225,22 @@ impl Against {
         if is_done || is_soon || reference.pixels == 0 || self.comparing.is_some() {
             return;
         }
-        let picture = about.picture.film().clone();
+        if self
+            .compares
+            .as_ref()
+            .is_none_or(|(version, _)| *version != of.picture)
+        {
+            self.compares = Some((of.picture, Arc::new(about.picture.film().clone())));
+        }
+        let Some((_, picture)) = self.compares.clone() else {
+            return;
+        };
+        let own = reference.own;
         let (film, known) = (Arc::clone(&reference.film), Arc::clone(&reference.known));
         let pilot = Arc::clone(pilot);
         self.compared = Some(Instant::now());
-        let rank = Rank::WithThePicture;
+        let rank = Rank::BehindThePicture;
         self.comparing = Running::begin("compare", rank, &self.wake, move |_, tell| {
-            let own = pilot.choice(pilot.finest()).error.all;
             let whole = of.is_whole.then(|| study::measured(&film, &picture, own));
             tell(Found {
                 of,
@@ -238,6 +271,7 @@ mod tests {
             known: Arc::new(vec![true; 8]),
             film,
             pixels: 8,
+            own: Error::default(),
             rendering: None,
             failed: false,
         });
@@ -272,6 +306,7 @@ mod tests {
             known: Arc::new(vec![false; 15]),
             film: Arc::new(Film::new([5, 3])),
             pixels: 0,
+            own: Error::default(),
             rendering: None,
             failed: false,
         };

@@ -58,6 +58,8 @@ pub(super) struct About<'a> {
     pub(super) picture: &'a Picture,
     /// Its job, if the picture is of the one that was submitted last.
     pub(super) job: Option<&'a Job>,
+    /// Whether nothing is to be seen in it.
+    pub(super) sees_nothing: bool,
     /// What is known of its scene.
     pub(super) pilot: Option<&'a Arc<Pilot>>,
     /// Its scene, as the engine has packed it.
@@ -97,11 +99,15 @@ impl Maps {
     }
 
     /// The legend's title and rows, least first, and what is to be said beside it.
-    pub(super) fn legend(&self) -> Option<(String, Vec<(Color32, String)>)> {
+    pub(super) fn legend(&self, picture: &Picture) -> Option<(String, Vec<(Color32, String)>)> {
         let map = self.shown?;
         let title = match map {
             Map::Cost => map.scale().title.to_owned(),
-            Map::Error => format!("{}; {}", map.scale().title, self.against.progress_words()),
+            Map::Error => format!(
+                "{}; {}",
+                map.scale().title,
+                self.against.progress_words(picture)
+            ),
         };
         Some((title, map.scale().rows()))
     }
@@ -115,6 +121,11 @@ impl Maps {
     /// The map as a picture of its own, to be laid over the picture.
     pub(super) fn texture(&mut self, ctx: &Context, about: &About<'_>) -> Option<TextureId> {
         let map = self.shown?;
+        // An error is that of the picture it was found for, not of one that a camera has left behind.
+        if map == Map::Error && about.job.is_none() {
+            self.drawn = None;
+            return None;
+        }
         let version = match map {
             Map::Cost => about.picture.version,
             Map::Error => self.against.version(),

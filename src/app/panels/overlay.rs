@@ -19,12 +19,16 @@ const NOTE_WIDTH: f32 = 520.0;
 
 /// Draws the legend of the colours on show, notes in the corner of the picture, and the drop target while files hover.
 pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
-    let of_map = app.maps.legend().map(|(title, rows)| Legend {
+    let flipped = app.snapshots.flipped();
+    let of_map = app.maps.legend(&app.picture);
+    let of_map = of_map.filter(|_| flipped.is_none());
+    let of_map = of_map.map(|(title, rows)| Legend {
         title: Some(title),
         rows,
     });
-    let of_light = app.view().false_colour && app.document.metering.is_some();
-    if let Some(legend) = of_map.or_else(|| of_light.then(|| Legend::of(&app.view()))) {
+    let view = flipped.map_or(app.view(), |snapshot| snapshot.view);
+    let of_light = view.false_colour && app.document.metering.is_some();
+    if let Some(legend) = of_map.or_else(|| of_light.then(|| Legend::of(&view))) {
         legend::show(ui, &legend, canvas);
     }
     notes(ui, app, canvas, commands);
