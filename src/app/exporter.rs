@@ -17,6 +17,7 @@ use thiserror::Error;
 
 use crate::export::{ExportError, Still, check_target};
 use crate::project::ProjectError;
+use crate::render::preparation::Preparation;
 use crate::render::{Cancel, Flaws};
 use crate::study;
 
@@ -50,6 +51,8 @@ pub(super) enum Outcome {
 pub(super) struct Progress {
     /// Rendered share, 0 to 1.
     pub(super) share: f64,
+    /// Share of the light from all sides, 0 to 1, while it is worked out before the first rays.
+    pub(super) preparing: Option<f64>,
     /// Time since it began.
     pub(super) elapsed: Duration,
 }
@@ -78,6 +81,8 @@ struct Shared {
     millionths: AtomicU64,
     /// When the window was last woken, milliseconds since the beginning.
     woken_ms: AtomicU64,
+    /// How far the light is that is worked out before the first rays.
+    preparation: Preparation,
 }
 
 const MILLION: f64 = 1e6;
@@ -173,7 +178,13 @@ impl Exporter {
         self.running.as_ref().map(|running| {
             let share = running.shared.millionths.load(Ordering::Relaxed) as f64 / MILLION;
             let elapsed = running.begun.elapsed();
-            (running.path.as_path(), Progress { share, elapsed })
+            let preparing = running.shared.preparation.share();
+            let progress = Progress {
+                share,
+                preparing,
+                elapsed,
+            };
+            (running.path.as_path(), progress)
         })
     }
 
@@ -215,7 +226,9 @@ impl Shared {
             }
         };
         let cancel = Cancel::when_passed(Arc::clone(&self.generation), 0);
-        match catch_unwind(AssertUnwindSafe(|| export(order, &cancel, &progress))) {
+        match catch_unwind(AssertUnwindSafe(|| {
+            export(order, &cancel, &self.preparation, &progress)
+        })) {
             Ok(Ok(flaws)) => Outcome::Done {
                 path: order.path.clone(),
                 size: order.project.render.size,
@@ -238,6 +251,7 @@ impl Shared {
 fn export(
     order: &Order,
     cancel: &Cancel,
+    preparation: &Preparation,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Flaws, NotExported> {
     // Writing to a pipe would wait for its reader, and the window for that.
@@ -264,7 +278,7 @@ fn export(
         if let Some(on_show) = order.effects {
             still = still.showing(&scene, on_show);
         }
-        let plan = still.plan(&scene);
+        let plan = still.plan(&scene).told_by(preparation);
         let (settings, wished) = (still.job.settings, still.job.accuracy);
         let aim = study::aim(&scene, plan, &settings, wished, None, cancel);
         still.job.settings = aim.settings;

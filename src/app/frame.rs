@@ -51,7 +51,8 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
-        if self.is_working() {
+        // Neither wakes the window while light from all sides is worked out.
+        if self.is_working() || self.exporter.running().is_some() {
             ctx.request_repaint_after(WORKING_FRAME);
         }
         self.take_drops(&ctx);

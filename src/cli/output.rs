@@ -2,10 +2,13 @@
 //! reads any more is no error: `sootlight info fire.vdb | head` is a fair question.
 
 use std::error::Error;
+use std::fmt;
 use std::io::{self, IsTerminal as _, Write as _};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+
+use crate::render::preparation::Preparation;
 
 /// Writes lines to standard output.
 pub(super) fn say(text: &str) {
@@ -35,16 +38,25 @@ const STEPS: f64 = 1000.0;
 /// How often its time is drawn anew.
 const TICK: Duration = Duration::from_millis(250);
 
-/// A bar on a terminal, nothing in a pipe.
-pub(super) fn progress_bar() -> ProgressBar {
+/// A bar on a terminal, nothing in a pipe. While light is worked out before the first rays, it tells how far that is.
+pub(super) fn progress_bar(preparation: &Preparation) -> ProgressBar {
     if !io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
     let bar = ProgressBar::new(STEPS as u64);
-    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed}, {eta} to go");
-    // What is worked out before the first rays tells no share: the time goes on to show that it works.
+    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed}, {rest}");
+    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+    let preparation = preparation.clone();
+    let rest = move |state: &ProgressState, line: &mut dyn fmt::Write| {
+        let _ = match preparation.share() {
+            Some(share) => {
+                line.write_fmt(format_args!("light from all sides {:.0} %", 100.0 * share))
+            }
+            None => line.write_fmt(format_args!("{} to go", HumanDuration(state.eta()))),
+        };
+    };
     bar.enable_steady_tick(TICK);
-    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    bar.with_style(style.with_key("rest", rest))
 }
 
 /// Moves a bar to a share between 0 and 1, never back: workers report in any order.

@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use indicatif::ProgressBar;
+
 use super::accuracy::Accuracy;
 use super::command::Render;
 use super::error::CliError;
@@ -33,14 +35,15 @@ impl Render {
             .and_then(|limit| Instant::now().checked_add(Duration::from_secs_f64(limit)));
         let planned = || {
             let (settings, wished) = (&still.job.settings, still.job.accuracy);
-            let never = Cancel::never();
-            let aim = study::aim(&scene, still.plan(&scene), settings, wished, end, &never);
+            let (never, plan) = (Cancel::never(), still.plan(&scene));
+            let bar = output::progress_bar(plan.preparation());
+            let aim = study::aim(&scene, plan, settings, wished, end, &never);
             still.job.settings = aim.settings;
             if end.is_some() {
                 // What a clock has chosen no scene file would come to again.
                 Numbers::of(&aim.settings).by_hand(&mut still.project.render);
             }
-            let frame = with_a_bar(&still, &scene, &aim.plan, end);
+            let frame = with_a_bar(&bar, &still, &scene, &aim.plan, end);
             (aim, frame)
         };
         let ((aim, frame), took) = pool.install(|| timed_on_pool(planned));
@@ -100,14 +103,14 @@ const MEASURING: Duration = Duration::from_secs(1);
 const MEASURING_SHARE: f64 = 0.1;
 
 fn with_a_bar(
+    bar: &ProgressBar,
     still: &Still,
     scene: &Scene,
     plan: &Plan,
     end: Option<Instant>,
 ) -> Result<Frame, ExportError> {
-    let bar = output::progress_bar();
     let (never, settings) = (Cancel::never(), &still.job.settings);
-    let progress = |share: f64| output::advance(&bar, share);
+    let progress = |share: f64| output::advance(bar, share);
     let frame = match end {
         Some(end) => render_until(scene, plan, settings, end, &never, &progress)
             .ok_or(ExportError::Cancelled),

@@ -11,6 +11,7 @@ use super::table::Table;
 use super::{load, output};
 use crate::export;
 use crate::render::Cancel;
+use crate::render::preparation::Preparation;
 use crate::study::{Chart, Family, Report, report};
 
 impl Study {
@@ -33,7 +34,7 @@ impl Study {
         let pool = pool(self.threads)?;
         let volume = pool.install(|| load::volume(&self.project))?;
         let job = self.project.job(&volume).map_err(CliError::project)?;
-        let bar = output::progress_bar();
+        let bar = output::progress_bar(&Preparation::default());
         let mut known = 0;
         let measured = pool.install(|| {
             report(&job, &job.scene(None), &Cancel::never(), &mut |_, count| {

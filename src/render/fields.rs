@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use super::Cancel;
 use super::clock::timed;
 use super::irradiance::FireLight;
 use super::level::Level;
+use super::preparation::Watch;
 use super::scatter::InScatter;
 use super::shift::largest_shift_px;
 use super::tables::Tables;
@@ -83,19 +83,25 @@ impl Fields {
         wanted: Wanted,
         known: Self,
         level: Level,
-        cancel: &Cancel,
+        watch: &Watch<'_>,
     ) -> Option<Self> {
         let mut fields = known;
+        let both = wanted.scatter && wanted.fire_light;
+        let [first, second] = if both {
+            [watch.part(0.0, 0.5), watch.part(0.5, 1.0)]
+        } else {
+            [watch.part(0.0, 1.0), watch.part(0.0, 1.0)]
+        };
         if wanted.scatter && fields.scatter.is_none() {
             // A coarse picture is not worth more than what is scattered once.
             let again = wanted.again && level == Level::Fine;
-            let work = || InScatter::new(scene, tables, again, level, cancel);
+            let work = || InScatter::new(scene, tables, again, level, &first);
             let (made, seconds) = timed(work);
             fields.scatter = Some(Arc::new(made?));
             fields.seconds.scatter = seconds;
         }
         if wanted.fire_light && fields.fire_light.is_none() {
-            let (made, seconds) = timed(|| FireLight::new(scene, tables, level, cancel));
+            let (made, seconds) = timed(|| FireLight::new(scene, tables, level, &second));
             fields.fire_light = Some(Arc::new(made?));
             fields.seconds.fire_light = seconds;
         }

@@ -43,6 +43,7 @@ mod packets;
 pub mod part;
 pub mod pass;
 pub mod plan;
+pub mod preparation;
 pub mod probe;
 mod scatter;
 mod shift;

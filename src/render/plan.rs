@@ -7,6 +7,7 @@ use std::sync::{Arc, OnceLock};
 use super::clock::timed;
 use super::fields::{Bent, Fields, Paths, Seconds, Wanted};
 use super::level::Level;
+use super::preparation::{Preparation, Watch};
 use super::tables::Tables;
 use super::{Cancel, Effects, Flaws, Settings, Switch};
 use crate::scene::glow::Feature;
@@ -48,6 +49,8 @@ pub struct Plan {
     bent: OnceLock<(Option<Arc<Bent>>, f64)>,
     /// The fields of a scene that calls for none.
     without: Fields,
+    /// How far the fields are that are being worked out.
+    preparation: Preparation,
 }
 
 /// What was found out about a picture on the way.
@@ -204,6 +207,7 @@ impl Plan {
             fields: [OnceLock::new(), OnceLock::new()],
             bent: OnceLock::new(),
             without: Fields::default(),
+            preparation: Preparation::default(),
         }
     }
 
@@ -224,8 +228,22 @@ impl Plan {
         } else {
             Fields::default()
         };
-        let fields = Fields::new(scene, &self.tables, self.wanted, known, level, cancel)?;
+        let (tables, wanted) = (&self.tables, self.wanted);
+        let work = |watch: &Watch<'_>| Fields::new(scene, tables, wanted, known, level, watch);
+        let fields = self.preparation.during(cancel, work)?;
         Some(cell.get_or_init(|| fields))
+    }
+
+    /// How far the fields are that are being worked out, for whoever waits for them.
+    pub fn preparation(&self) -> &Preparation {
+        &self.preparation
+    }
+
+    /// The same plan, whose preparation is told where somebody listens already.
+    #[must_use]
+    pub fn told_by(mut self, preparation: &Preparation) -> Self {
+        self.preparation = preparation.clone();
+        self
     }
 
     /// Works out how light is bent, in the calling thread's rayon pool, if that is asked for and nobody has.

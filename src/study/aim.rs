@@ -59,7 +59,8 @@ pub fn aim(
     };
     let settings = numbers.within(settings);
     // What is at the border stays as it was decided.
-    let mut chosen = Plan::after(scene, &settings, &plan.decisions);
+    let chosen = Plan::after(scene, &settings, &plan.decisions);
+    let mut chosen = chosen.told_by(plan.preparation());
     for other in [Some(&plan), tried.as_ref()].into_iter().flatten() {
         chosen.take_over(other);
     }

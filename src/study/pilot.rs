@@ -130,7 +130,7 @@ impl Pilot {
             ..*settings
         };
         let is_another = plan.wavelengths() != set.count();
-        let another = is_another.then(|| plan.at(scene, &settings));
+        let another = is_another.then(|| plan.at(scene, &settings).told_by(plan.preparation()));
         let plan = another.as_ref().unwrap_or(plan);
 
         let mut steps = tried::steps(scene, plan, settings.step_voxels, &part, cancel)?;

@@ -290,7 +290,14 @@ fn meaning(settings: &Settings) -> String {
 
 /// How far an export is.
 fn words_of(progress: Progress) -> String {
-    let Progress { share, elapsed } = progress;
+    let Progress {
+        share,
+        preparing,
+        elapsed,
+    } = progress;
+    if let Some(preparing) = preparing {
+        return format!("light from all sides, {:.0} %", 100.0 * preparing);
+    }
     if share >= 1.0 {
         return "100 %, writing".to_owned();
     }
@@ -349,6 +356,7 @@ mod tests {
         let told = |share, seconds| {
             words_of(Progress {
                 share,
+                preparing: None,
                 elapsed: Duration::from_secs(seconds),
             })
         };
@@ -357,5 +365,11 @@ mod tests {
         assert_eq!(told(0.5, 130), "50 %, 2 min left");
         assert_eq!(told(0.9999, 10), "99 %, 1 s left");
         assert_eq!(told(1.0, 1), "100 %, writing");
+        let before_the_rays = Progress {
+            share: 0.0,
+            preparing: Some(0.5),
+            elapsed: Duration::ZERO,
+        };
+        assert_eq!(words_of(before_the_rays), "light from all sides, 50 %");
     }
 }

@@ -119,7 +119,10 @@ fn rendering(ui: &mut Ui, app: &App) {
              own reference, and not a real fire.",
         );
     });
-    for (words, width) in cells(progress, since) {
+    let is_preparing = progress.done > 0 && progress.rays_in_pass == 0 && !progress.finished;
+    let packed = is_preparing.then(|| app.engine.scene()).flatten();
+    let preparing = packed.and_then(|packed| packed.plan.preparation().share());
+    for (words, width) in cells(progress, since, preparing) {
         if ui.available_width() < width + FLAWS_WIDTH {
             break;
         }
@@ -210,7 +213,11 @@ fn share(progress: &Progress) -> f32 {
 }
 
 /// The words of the line, each with the width that its longest form needs, the most wanted first.
-fn cells(progress: &Progress, since_submit: Duration) -> Vec<(String, f32)> {
+fn cells(
+    progress: &Progress,
+    since_submit: Duration,
+    preparing: Option<f64>,
+) -> Vec<(String, f32)> {
     let count = progress.passes.len();
     let elapsed = if progress.finished {
         progress.elapsed
@@ -231,7 +238,7 @@ fn cells(progress: &Progress, since_submit: Duration) -> Vec<(String, f32)> {
     });
     vec![
         (format!("{:.0} %", 100.0 * share(progress)), 42.0),
-        (time_left(progress, elapsed), 78.0),
+        (time_left(progress, elapsed, preparing), 78.0),
         (format!("pass {pass}/{count}"), 70.0),
         (format!("{elapsed:.2} s"), 60.0),
         (format!("{} rays/s", counted(rate(progress.rays))), 104.0),
@@ -247,13 +254,15 @@ fn cells(progress: &Progress, since_submit: Duration) -> Vec<(String, f32)> {
 const TOO_EARLY: f64 = 0.05;
 
 /// How long the rest takes, if it goes on as it went.
-fn time_left(progress: &Progress, elapsed: f64) -> String {
+fn time_left(progress: &Progress, elapsed: f64, preparing: Option<f64>) -> String {
     let share = f64::from(share(progress));
     if progress.finished {
         "done".to_owned()
     } else if progress.done > 0 && progress.rays_in_pass == 0 {
         // Light from all sides is worked out before a pass's first rays.
-        "preparing…".to_owned()
+        preparing.map_or("preparing…".to_owned(), |share| {
+            format!("light {:.0} %", 100.0 * share)
+        })
     } else if share > TOO_EARLY {
         format!("{:.1} s left", elapsed * (1.0 - share) / share)
     } else {
@@ -310,13 +319,14 @@ mod tests {
     #[test]
     fn the_time_left_is_what_the_rest_takes_at_the_same_rate() {
         let mut progress = ladder(3, 50);
-        let (share, left) = (f64::from(share(&progress)), time_left(&progress, 2.0));
+        let (share, left) = (f64::from(share(&progress)), time_left(&progress, 2.0, None));
         assert_eq!(left, format!("{:.1} s left", 2.0 / share - 2.0));
         progress.finished = true;
-        assert_eq!(time_left(&progress, 2.0), "done");
-        assert_eq!(time_left(&ladder(0, 0), 0.1), "… s left");
+        assert_eq!(time_left(&progress, 2.0, None), "done");
+        assert_eq!(time_left(&ladder(0, 0), 0.1, None), "… s left");
         // Nothing is told of a pass that has not begun.
-        assert_eq!(time_left(&ladder(3, 0), 2.0), "preparing…");
+        assert_eq!(time_left(&ladder(3, 0), 2.0, None), "preparing…");
+        assert_eq!(time_left(&ladder(3, 0), 2.0, Some(0.414)), "light 41 %");
     }
 
     #[test]

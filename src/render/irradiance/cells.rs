@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use super::channels::{BLOCK, Block, Channels};
 use crate::math::Aabb;
 use crate::math::lanes::{self, Arithmetic, Kernel, Rounded};
-use crate::render::Cancel;
 use crate::render::lookup::lookup;
+use crate::render::preparation::Watch;
 use crate::scene::medium::{BRICK, Medium};
 
 /// How finely the medium is cut.
@@ -102,14 +102,14 @@ impl Cells {
         medium: &Medium,
         channels: &Channels,
         fineness: Fineness,
-        cancel: &Cancel,
+        watch: &Watch<'_>,
     ) -> Option<Self> {
         let bricks = bricks_of_slots(medium);
         let world_from_lattice = medium.lattice_from_world.matrix3.inverse();
         let parts: Vec<Part> = bricks
             .par_iter()
             .map(|&brick| {
-                if cancel.is_cancelled() {
+                if watch.is_cancelled() {
                     return Part::default();
                 }
                 lanes::dispatch(Sum {
@@ -121,7 +121,7 @@ impl Cells {
                 })
             })
             .collect();
-        if cancel.is_cancelled() {
+        if watch.is_cancelled() {
             return None;
         }
         let mut cells = Self {

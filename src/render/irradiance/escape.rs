@@ -20,6 +20,8 @@
 //! | u | ∫ f_v ds from outside | m |
 //! | y, W, t | depth and growth of a line, transmittance of soot at its wavelength: see `render/glow.rs` | 1 |
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -30,8 +32,8 @@ use super::transmittance::{Way, mean_over_step};
 use super::tree::Tree;
 use crate::math::lanes::{self, Arithmetic, Kernel};
 use crate::math::{Aabb, Ray};
-use crate::render::Cancel;
 use crate::render::growth::{FIT, curve_of_growth_f32};
+use crate::render::preparation::Watch;
 use crate::render::walk::for_each_stretch;
 use crate::scene::glow::Growth;
 use crate::scene::medium::{BRICK, Medium};
@@ -62,15 +64,18 @@ impl Escape {
         tree: &Tree,
         directions: Directions,
         apart: f64,
-        cancel: &Cancel,
+        watch: &Watch<'_>,
     ) -> Option<Self> {
         let blocks = channels.blocks();
+        let done = AtomicUsize::new(0);
         let followed: Vec<Sums> = (0..directions.len())
             .into_par_iter()
             .map(|i| {
-                if cancel.is_cancelled() {
+                if watch.is_cancelled() {
                     return Sums::default();
                 }
+                let before = done.fetch_add(1, Ordering::Relaxed);
+                watch.tell(before as f64 / directions.len() as f64);
                 lanes::dispatch(Follow {
                     medium,
                     channels,
@@ -81,7 +86,7 @@ impl Escape {
                 })
             })
             .collect();
-        if cancel.is_cancelled() {
+        if watch.is_cancelled() {
             return None;
         }
         let mut escape = Self {

@@ -39,9 +39,9 @@
 
 use glam::DVec3;
 
-use super::Cancel;
 use super::glow::MAX_FEATURES;
 use super::level::Level;
+use super::preparation::Watch;
 use super::spread::Spread;
 use super::tables::{MAX_NODES, Tables};
 use crate::math::lanes;
@@ -168,19 +168,19 @@ impl FireLight {
         scene: &Scene,
         tables: &Tables,
         level: Level,
-        cancel: &Cancel,
+        watch: &Watch<'_>,
     ) -> Option<Self> {
-        Self::with(scene, tables, &Effort::of(level), cancel)
+        Self::with(scene, tables, &Effort::of(level), watch)
     }
 
-    fn with(scene: &Scene, tables: &Tables, effort: &Effort, cancel: &Cancel) -> Option<Self> {
+    fn with(scene: &Scene, tables: &Tables, effort: &Effort, watch: &Watch<'_>) -> Option<Self> {
         let medium: &Medium = scene.flame.medium();
         let directions = Directions::new(effort.squares);
         let bricks = medium.shown as usize;
         let reduced = tables.for_fields(scene);
         let channels = Channels::new(scene, reduced.as_ref().map_or(tables, |(few, _)| few));
         let fineness = effort.fineness(bricks, directions.len());
-        let cells = Cells::new(medium, &channels, fineness, cancel)?;
+        let cells = Cells::new(medium, &channels, fineness, watch)?;
         let blocks = channels.blocks();
         // As many whatever the wavelengths, so that these alone make no difference.
         let most_tables = effort.table_blocks
@@ -193,7 +193,7 @@ impl FireLight {
             &tree,
             directions,
             effort.apart,
-            cancel,
+            watch,
         )?;
         let mut alone = vec![[1.0; BLOCK]; blocks];
         for (thermal, share) in channels.thermal.iter().zip(&escape.thermal_share) {

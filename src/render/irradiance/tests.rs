@@ -1,13 +1,14 @@
 //! The fire's light against the march, closed forms and quadratures.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use crate::render::Plan;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, IVec3};
 
 use super::*;
 use crate::render::march::Marcher;
+use crate::render::preparation::Preparation;
+use crate::render::{Cancel, Plan};
 use crate::scene::{
     Air, Camera, Flame, FlameParams, Fuel, GlowParams, Interpolation, Placement, WavelengthSet,
 };
@@ -120,7 +121,10 @@ pub(super) fn plan(scene: &Scene) -> Plan {
 }
 
 pub(super) fn light(scene: &Scene, plan: &Plan, level: Level) -> FireLight {
-    FireLight::new(scene, &plan.tables, level, &Cancel::never()).unwrap()
+    let work = |watch: &Watch<'_>| FireLight::new(scene, &plan.tables, level, watch);
+    Preparation::default()
+        .during(&Cancel::never(), work)
+        .unwrap()
 }
 
 /// Irradiance at each node, then feature.

@@ -5,6 +5,7 @@ use super::effect::{Effect, is_on};
 use super::{Plan, flaws, wavelengths};
 use crate::render::baked;
 use crate::render::fields::Fields;
+use crate::render::preparation::Watch;
 use crate::render::{Cancel, Level, Settings};
 use crate::scene::Scene;
 use crate::scene::glow::Kind;
@@ -175,6 +176,9 @@ impl Plan {
             known.fire_light.clone_from(&theirs.fire_light);
             known.seconds.fire_light = theirs.seconds.fire_light;
         }
-        Fields::new(scene, &self.tables, self.wanted, known, Level::Fine, cancel)
+        let (tables, wanted) = (&self.tables, self.wanted);
+        let work =
+            |watch: &Watch<'_>| Fields::new(scene, tables, wanted, known, Level::Fine, watch);
+        self.preparation().during(cancel, work)
     }
 }

@@ -11,6 +11,8 @@ use crate::scene::Scene;
 /// What the cells have received.
 pub(super) struct Gathered<'a> {
     pub(super) cells: &'a Cells,
+    /// Edge of a cell, m.
+    pub(super) edge_m: f64,
     lobe: Lobe,
     /// The direction to the eye from each cell whose J can be asked for; zero for the others.
     pub(super) to_eye: Vec<[f32; 3]>,
@@ -91,6 +93,7 @@ impl<'a> Gathered<'a> {
         let count = x * y * z;
         Self {
             cells,
+            edge_m: cells.edge as f64 * scene.flame.medium().voxel_size_m(),
             lobe: Lobe::new(asymmetry),
             to_eye: (0..count).into_par_iter().map(to_eye).collect(),
             light: vec![[0.0; WIDE]; count * cells.chunks],
@@ -103,6 +106,7 @@ impl<'a> Gathered<'a> {
     pub(super) fn emptied<'b>(&self, cells: &'b Cells) -> Gathered<'b> {
         Gathered {
             cells,
+            edge_m: self.edge_m,
             lobe: self.lobe.clone(),
             to_eye: self.to_eye.clone(),
             light: vec![[0.0; WIDE]; self.light.len()],

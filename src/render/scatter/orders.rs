@@ -4,8 +4,8 @@
 //! J_{n+1}(x) = 1/(4π) ∫ L_n(x, ω′) dω′,   dL_n/ds = −(σ_a + σ_s) L_n + σ_s J_n
 //! ```
 //!
-//! J_1 is that of [`super`]. Each order costs what the first did. Once the orders fall off by the same factor r, what is
-//! missing is J_n r/(1 − r), place by place in the shape of the last.
+//! J_1 is that of [`super`]. Each order costs what the first did, or an eighth of it where larger
+//! cells do. Once the orders fall off by the same factor r, what is missing is J_n r/(1 − r), place by place in the shape of the last.
 //!
 //! **Validity.** Light that was scattered counts as even where it is scattered on: J_n towards the eye stands for that in
 //! other directions, which is exact for g = 0, and for soot of up to 40 nm (g < 0.1) within some per cent of the second
@@ -13,11 +13,11 @@
 //!
 //! **Source.** Λ-iteration: D. Mihalas, Stellar Atmospheres, 2nd ed. (1978), ch. 6.
 
-use crate::render::Cancel;
 use crate::render::cells::{Cells, Chunk, Colours, WIDE};
+use crate::render::preparation::Watch;
 
-use super::Rays;
 use super::gathered::Gathered;
+use super::{Rays, exchange};
 
 /// Most orders that are worked out.
 const MOST_ORDERS: u32 = 12;
@@ -30,33 +30,62 @@ const UNSURE: f64 = 0.1;
 /// Greatest ratio that is trusted: of a thousand scatterings one is lost.
 const MOST_RATIO: f64 = 0.999;
 
+/// Depth of a cell's edge from which coarser cells would let light too far.
+const DEEPEST: f64 = 0.5;
+
 /// The sum of all orders after the first, for each cell as [`Gathered::light`], and the share of all scattered light that is
-/// still left out; `None` if cancelled.
+/// still left out; `None` if cancelled. It is worked out in coarser cells, which have received nothing yet, where light finds
+/// its way through these.
 pub(super) fn scattered_often(
     rays: &mut Rays<'_>,
     colours: &Colours,
-    first: &Gathered<'_>,
-    cancel: &Cancel,
+    [first, coarser]: [&Gathered<'_>; 2],
+    watch: &Watch<'_>,
 ) -> Option<(Vec<Chunk>, f64)> {
-    let cells = first.cells;
-    let mut all = vec![[0.0; WIDE]; first.light.len()];
+    if coarser.cells.edge <= first.cells.edge
+        || depth_of_cells(coarser, colours, rays.extinction) > DEEPEST
+    {
+        return orders(rays, colours, first, first.light.clone(), watch);
+    }
+    let light = exchange::in_coarser(first, coarser.cells, colours);
+    let (often, rest) = orders(rays, colours, coarser, light, watch)?;
+    Some((exchange::in_finer(&often, coarser, first), rest))
+}
+
+/// The same in the cells of `like`, where the light that is scattered for the second time is that of `first`.
+fn orders(
+    rays: &mut Rays<'_>,
+    colours: &Colours,
+    like: &Gathered<'_>,
+    first: Vec<Chunk>,
+    watch: &Watch<'_>,
+) -> Option<(Vec<Chunk>, f64)> {
+    let cells = like.cells;
+    let mut all = vec![[0.0; WIDE]; first.len()];
     let mut source = Cells {
         records: cells.records.clone(),
         filled: cells.filled.clone(),
         ..*cells
     };
-    let mut last = first.light.clone();
-    let mut last_sum = scattered(cells, colours, first, &last);
+    let mut last = first;
+    let mut last_sum = scattered(cells, colours, like, &last);
     let mut sum = last_sum;
     let mut rest = if last_sum > 0.0 { 1.0 } else { 0.0 };
+    // How many orders there will be nobody knows: each is told as half of what is left.
+    let mut left = 1.0;
     for order in 2..=MOST_ORDERS {
         if sum <= 0.0 {
             break;
         }
         shine_again(&mut source, colours, &last);
-        let mut next = first.emptied(&source);
-        rays.gather(&source, &mut next, cancel)?;
-        let next_sum = scattered(cells, colours, first, &next.light);
+        let mut next = like.emptied(&source);
+        rays.gather(
+            &source,
+            &mut next,
+            &watch.part(1.0 - left, 1.0 - 0.5 * left),
+        )?;
+        left *= 0.5;
+        let next_sum = scattered(cells, colours, like, &next.light);
         let ratio = (next_sum / last_sum).clamp(0.0, MOST_RATIO);
         (last, last_sum) = (next.light, next_sum);
         sum += next_sum;
@@ -80,6 +109,27 @@ pub(super) fn scattered_often(
         }
     }
     Some((all, rest.min(1.0)))
+}
+
+/// Mean optical depth of a cell's edge where light is scattered, in the most luminous colour.
+fn depth_of_cells(like: &Gathered<'_>, colours: &Colours, extinction: &[Vec<Chunk>; 2]) -> f64 {
+    let (cells, luminous) = (like.cells, like.luminous());
+    if luminous >= colours.len() {
+        return 0.0;
+    }
+    let [chunk, number] = Colours::place(luminous);
+    let [soot, smoke] = [0, 1].map(|kind: usize| extinction[kind][chunk][number]);
+    let (mut depth, mut all) = (0.0, 0.0);
+    for record in cells.records.chunks_exact(cells.chunks) {
+        let scattering = f64::from(colours.scattering(luminous, record));
+        depth += scattering * f64::from(soot * record[0][0] + smoke * record[0][1]);
+        all += scattering;
+    }
+    if all > 0.0 {
+        like.edge_m * depth / all
+    } else {
+        0.0
+    }
 }
 
 /// Makes what the cells scatter of light their emission.

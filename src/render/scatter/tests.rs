@@ -7,6 +7,7 @@
 )]
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::{DAffine3, IVec3};
 use rayon::prelude::*;
@@ -17,7 +18,8 @@ use crate::math::lanes::LANES;
 use crate::physics::blackbody;
 use crate::physics::soot::{Hold, SootModel};
 use crate::render::own_light::own_light;
-use crate::render::{Effects, Plan, Settings, Switch};
+use crate::render::preparation::Preparation;
+use crate::render::{Cancel, Effects, Plan, Settings, Switch};
 use crate::scene::{
     Air, Camera, Flame, FlameParams, Fuel, GlowParams, Interpolation, Placement, ScatteringParams,
     Stage, WavelengthSet,
@@ -75,6 +77,23 @@ pub(in crate::render) fn plan(scene: &Scene) -> Plan {
     Plan::new(scene, &settings)
 }
 
+fn with(
+    scene: &Scene,
+    plan: &Plan,
+    again: bool,
+    effort: Effort,
+    cancel: &Cancel,
+) -> Option<InScatter> {
+    Preparation::default().during(cancel, |watch| {
+        InScatter::with_effort(scene, &plan.tables, again, effort, watch)
+    })
+}
+
+/// What is scattered once.
+fn field(scene: &Scene, plan: &Plan, level: Level) -> InScatter {
+    with(scene, plan, false, Effort::of(level), &Cancel::never()).unwrap()
+}
+
 /// J at a position of the lattice, one number for each node, with the place's own light.
 fn read(scene: &Scene, plan: &Plan, field: &InScatter, position: DVec3) -> Vec<f64> {
     let [nodes, silent, radicals] = field.counts;
@@ -101,6 +120,11 @@ fn read(scene: &Scene, plan: &Plan, field: &InScatter, position: DVec3) -> Vec<f
 
 /// An even ball of soot of this radius in voxels of 1 cm, at one temperature.
 fn ball(radius: f64, volume_fraction: f32, kelvin: f32) -> Volume {
+    ball_with_smoke(radius, [volume_fraction, 0.0], kelvin)
+}
+
+/// The same with smoke in it.
+fn ball_with_smoke(radius: f64, [soot, smoke]: [f32; 2], kelvin: f32) -> Volume {
     let edge = 2 * radius.ceil() as i32 + 7;
     let middle = DVec3::splat(0.5 * f64::from(edge - 1));
     let grid = |name: &str, inside: f32, outside: f32| {
@@ -119,7 +143,8 @@ fn ball(radius: f64, volume_fraction: f32, kelvin: f32) -> Volume {
     // Hot air around keeps the edge's soot at the ball's temperature.
     Volume::from_grids(
         vec![
-            grid("soot", volume_fraction, 0.0),
+            grid("soot", soot, 0.0),
+            grid("smoke", smoke, 0.0),
             grid("temperature", kelvin, kelvin),
         ],
         "ball",
@@ -137,8 +162,7 @@ fn the_middle_of_an_even_ball_sees_its_closed_form_from_all_sides() {
         let radius = 20.0;
         let scene = scene(ball(radius, 2e-6, 1700.0), 60.0, Some(asymmetry));
         let plan = plan(&scene);
-        let field =
-            InScatter::new(&scene, &plan.tables, false, Level::Fine, &Cancel::never()).unwrap();
+        let field = field(&scene, &plan, Level::Fine);
         let found = read(&scene, &plan, &field, middle(&scene));
         for (i, &nm) in plan.tables.wavelengths.nodes_nm.iter().enumerate() {
             let absorbed = scene.flame.absorption_per_sample(nm) * 2e-6;
@@ -158,8 +182,7 @@ fn a_deep_ball_is_a_furnace_whatever_the_asymmetry() {
     for asymmetry in [-0.9, 0.0, 0.9] {
         let scene = scene(ball(20.0, 1e-4, 1700.0), 60.0, Some(asymmetry));
         let plan = plan(&scene);
-        let field =
-            InScatter::new(&scene, &plan.tables, false, Level::Coarse, &Cancel::never()).unwrap();
+        let field = field(&scene, &plan, Level::Coarse);
         let found = read(&scene, &plan, &field, middle(&scene));
         for (i, &nm) in plan.tables.wavelengths.nodes_nm.iter().enumerate() {
             let absorbed = scene.flame.absorption_per_sample(nm);
@@ -257,9 +280,7 @@ fn the_field_agrees_with_rays_in_all_directions_from_single_places() {
     for asymmetry in [0.0, 0.5] {
         let scene = scene(procedural::torch(), 60.0, Some(asymmetry));
         let plan = plan(&scene);
-        let fields = [Level::Fine, Level::Coarse].map(|level| {
-            InScatter::new(&scene, &plan.tables, false, level, &Cancel::never()).unwrap()
-        });
+        let fields = [Level::Fine, Level::Coarse].map(|level| field(&scene, &plan, level));
         let [fine, coarse] = errors(&scene, &plan, &fields, asymmetry)[..] else {
             panic!("two fields")
         };
@@ -274,16 +295,14 @@ fn the_field_agrees_with_rays_in_all_directions_from_single_places() {
 fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
     let scene = scene(procedural::torch(), 40.0, None);
     let plan = plan(&scene);
-    let with = |threads: usize| {
+    let by = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| {
-            InScatter::new(&scene, &plan.tables, false, Level::Coarse, &Cancel::never()).unwrap()
-        })
+        pool.install(|| field(&scene, &plan, Level::Coarse))
     };
-    let (one, two) = (with(1), with(2));
+    let (one, two) = (by(1), by(2));
     let bits = |field: &InScatter| -> Vec<u32> {
         field
             .light
@@ -300,7 +319,37 @@ fn the_bits_do_not_depend_on_the_number_of_threads_and_a_passed_render_stops() {
     );
 
     let passed = Cancel::when_passed(Arc::new(1.into()), 0);
-    assert!(InScatter::new(&scene, &plan.tables, false, Level::Coarse, &passed).is_none());
+    assert!(with(&scene, &plan, false, COARSE, &passed).is_none());
+}
+
+#[test]
+fn who_waits_is_told_how_far_the_light_is() {
+    let scene = scene(procedural::torch(), 60.0, None);
+    let plan = plan(&scene);
+    let told = Preparation::default();
+    let ended = AtomicBool::new(false);
+    let shares = std::thread::scope(|scope| {
+        let asks = scope.spawn(|| {
+            let mut shares = Vec::new();
+            while !ended.load(Ordering::Relaxed) {
+                shares.extend(told.share());
+                shares.dedup();
+                std::thread::yield_now();
+            }
+            shares
+        });
+        let made = told.during(&Cancel::never(), |watch| {
+            InScatter::with_effort(&scene, &plan.tables, true, FINE, watch)
+        });
+        assert!(made.is_some());
+        ended.store(true, Ordering::Relaxed);
+        asks.join().unwrap()
+    });
+    println!("{shares:.2?}");
+    assert!(shares.is_sorted(), "{shares:?}");
+    let within = |low: f64, high: f64| shares.iter().any(|share| (low..high).contains(share));
+    assert!(within(0.0, 0.3) && within(0.3, FIRST_SHARE) && within(FIRST_SHARE, 1.0));
+    assert_eq!(told.share(), None);
 }
 
 #[test]
@@ -315,8 +364,10 @@ fn no_fire_scatters_nothing() {
     );
     let scene = scene(Volume::from_grids(vec![empty], "empty"), 40.0, None);
     let plan = plan(&scene);
-    let field = InScatter::new(&scene, &plan.tables, false, Level::Fine, &Cancel::never()).unwrap();
+    let field = field(&scene, &plan, Level::Fine);
     let found = read(&scene, &plan, &field, DVec3::ONE);
     assert!(found.iter().all(|light| *light == 0.0));
     assert_eq!(field.orders_left_out(1), 0.0);
 }
+
+mod again;

@@ -274,7 +274,11 @@ fn nobody_waits_for_a_light_that_is_cancelled() {
     let scene = torch();
     let current = Arc::new(std::sync::atomic::AtomicU64::new(1));
     let cancel = Cancel::when_passed(current, 0);
-    assert!(FireLight::new(&scene, &plan(&scene).tables, Level::Fine, &cancel).is_none());
+    let tables = plan(&scene).tables;
+    let light = Preparation::default().during(&cancel, |watch| {
+        FireLight::new(&scene, &tables, Level::Fine, watch)
+    });
+    assert!(light.is_none());
 }
 
 #[test]
