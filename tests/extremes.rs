@@ -20,6 +20,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use std::path::PathBuf;
@@ -27,10 +28,10 @@ use std::sync::Arc;
 
 use sootlight::colour::display::BakedView;
 use sootlight::project::set::KEYS;
-use sootlight::project::{Project, ProjectError};
+use sootlight::project::{Job, Project, ProjectError};
 use sootlight::render::develop::{Metering, develop, flaws_of};
 use sootlight::render::{Cancel, Plan, render_planned};
-use sootlight::volume::{BuiltIn, Limits, Volume, open};
+use sootlight::volume::{BuiltIn, FieldKind, Limits, Volume, open};
 
 use crate::common;
 
@@ -189,6 +190,48 @@ impl Seen {
     }
 }
 
+/// Asserts that a field which numbers of these ends carry beyond its bounds is told to be clamped, and no other is.
+fn assert_clamps_are_told(job: &Job, sets: &[&String]) {
+    for kind in FieldKind::ALL {
+        let Some(map) = job.flame.maps.get(kind) else {
+            continue;
+        };
+        let is_set = sets
+            .iter()
+            .any(|set| set.starts_with(&format!("volume.{}.", kind.name())));
+        let range = job.volume.grid(&map.grid).unwrap().range();
+        let reaches = [range.0, range.1].map(|raw| map.scale * f64::from(raw) + map.offset);
+        let slack = 1e-6 * (map.max - map.min);
+        let beyond = reaches
+            .iter()
+            .any(|reached| !(map.min - slack..=map.max + slack).contains(reached));
+        let begins = format!("{} would reach", kind.name());
+        let is_told = job.flaws.iter().any(|flaw| flaw.starts_with(&begins));
+        assert_eq!(is_told, is_set && beyond, "{sets:?}: {kind:?} {reaches:?}");
+    }
+}
+
+/// Does `work`, and hears meanwhile of the light that is worked out before the first rays.
+fn hearing_of_light<T>(plan: &Plan, hear: &(dyn Fn() + Sync), work: impl FnOnce() -> T) -> T {
+    let ended = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let mut last = None;
+            while !ended.load(Ordering::Relaxed) {
+                let share = plan.preparation().share();
+                if share != last {
+                    last = share;
+                    hear();
+                }
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        });
+        let made = work();
+        ended.store(true, Ordering::Relaxed);
+        made
+    })
+}
+
 /// Renders and develops with these ends.
 fn reach(volume: &Arc<Volume>, sets: &[&String], seen: &mut Seen) -> Result<(), ProjectError> {
     let project = project(sets);
@@ -201,12 +244,15 @@ fn reach(volume: &Arc<Volume>, sets: &[&String], seen: &mut Seen) -> Result<(), 
         *heard = (Instant::now(), heard.1.max(heard.0.elapsed()));
     };
     let job = project.job(volume)?;
+    assert_clamps_are_told(&job, sets);
     let scene = job.scene(None);
     hear();
     let plan = Plan::new(&scene, &job.settings);
     let opaque = plan.tables.opaque;
     let never = Cancel::never();
-    let frame = render_planned(&scene, &plan, &job.settings, &never, &|_| hear()).unwrap();
+    let frame = hearing_of_light(&plan, &hear, || {
+        render_planned(&scene, &plan, &job.settings, &never, &|_| hear()).unwrap()
+    });
     hear();
     let told: String = flaws_of(&frame.film).iter().collect();
     assert_eq!(told, "", "{sets:?}");
