@@ -55,6 +55,7 @@ impl App {
                     self.document.change(|document| {
                         document.metering = measured.or(document.metering);
                         document.project.view.exposure_ev = 0.0;
+                        document.project.view.let_go();
                     });
                 }
                 Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
