@@ -5,6 +5,19 @@ use crate::project::{BackdropKind, CameraSettings, FieldSettings, Job, Project, 
 use crate::scene::flame;
 use crate::volume::{FieldKind, FieldMap, FieldMaps, Producer, UpAxis};
 
+/// Whether a project takes nothing from its file's own peaks any more: every field is there with all its numbers, or set away.
+pub fn is_held(project: &Project) -> bool {
+    FieldKind::ALL.into_iter().all(|kind| {
+        let field = project.volume.field(kind);
+        let numbers = [field.scale, field.offset, field.min, field.max];
+        match field.grid.as_deref() {
+            Some("") => true,
+            Some(_) => numbers.iter().all(Option::is_some),
+            None => false,
+        }
+    })
+}
+
 /// What a picture takes from its file where nothing is set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Taken {

@@ -18,7 +18,7 @@ mod write;
 
 pub use error::{FrameError, RangeError};
 pub use gate::Gate;
-pub use hold::Taken;
+pub use hold::{Taken, is_held};
 pub use lock::{Locked, lock};
 pub use order::Order;
 pub use target::target;
