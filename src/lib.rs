@@ -8,12 +8,14 @@
 //! A floor has rooms; imports point strictly down, rooms on one floor are strangers to each other.
 //!
 //! ```text
-//! 10 main.rs      run, print the error chain, exit code
-//!  9 cli          flags → validated command: window | render | study | info | spectrum
-//!  8 app          the window (feature `window`)
+//! 11 main.rs      run, print the error chain, exit code
+//! 10 cli          flags → validated command: window | render | study | info | spectrum
+//!  9 app          the window (feature `window`)
+//!  8 range        frames of a sequence as pictures: what is measured once and held, what is written, what is kept
 //!  7 engine       background rendering for the window: submit(Job), drain() → tiles
 //!    study        accuracy against time: variants, reference, the front; which numbers are good enough
 //!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written
+//!    sequence     numbered files on disk ↔ frame numbers
 //!  6 project      all that a person can set: the scene file, --set, presets
 //!  5 render       THE CORE: plan and tables; fields of scattered, thrown and bent light; ways, kernel and march; film,
 //!                 passes, develop; parts that stand for a picture; the unbiased reference; what effects cost. Headless,
@@ -56,8 +58,10 @@ pub mod export;
 pub mod math;
 pub mod physics;
 pub mod project;
+pub mod range;
 pub mod render;
 pub mod scene;
+pub mod sequence;
 pub mod spectral;
 pub mod study;
 pub mod volume;

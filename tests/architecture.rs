@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 
 /// Rooms and their floors, as the picture in `src/lib.rs` draws them.
 const FLOORS: &[(&str, u32)] = &[
-    ("main", 10),
-    ("cli", 9),
-    ("app", 8),
+    ("main", 11),
+    ("cli", 10),
+    ("app", 9),
+    ("range", 8),
     ("engine", 7),
     ("export", 7),
     ("study", 7),
+    ("sequence", 7),
     ("project", 6),
     ("render", 5),
     ("scene", 4),

@@ -10,6 +10,7 @@ mod errors;
 mod fire;
 mod outputs;
 mod place;
+mod sequence;
 mod spectrum;
 mod stage;
 mod study;

@@ -100,8 +100,10 @@ const ENDS: &[(&str, [&str; 2])] = &[
     // 4096 would do no more than the same for many more rays.
     ("render.samples_per_pixel", ["1", "4"]),
     ("view.exposure_ev", ["-20", "20"]),
+    ("view.display_white_cd_m2", ["1e-3", "1e15"]),
     ("view.adaptation", ["0", "1"]),
     ("view.white_k", ["1000", "20000"]),
+    ("view.white_xy", ["[1e-3, 1]", "[1, 1e-3]"]),
     ("view.curve", ["linear", "eye"]),
     ("view.half_saturation_cd_m2", ["1e-3", "1e9"]),
     ("view.false_colour", ["false", "true"]),

@@ -322,13 +322,14 @@ impl Document {
         self.metered().automatic_half_saturation_cd_m2()
     }
 
-    /// What was measured, or a stand-in for as long as nothing was.
+    /// What was measured, or a stand-in for as long as nothing was, with what is set in its place.
     fn metered(&self) -> Metering {
-        self.metering.unwrap_or(Metering {
+        let measured = self.metering.unwrap_or(Metering {
             exposure: 1.0,
             white_xyz: [0.0; 3],
             bright_y: 0.0,
-        })
+        });
+        measured.with_set(&self.project.view())
     }
 
     /// Takes the last step back.

@@ -1,9 +1,10 @@
-//! A still written in the background while the window stays live: at most one at a time, on a named thread with a
+//! A still, or a range of frames, written in the background while the window stays live: at most one at a time, on a named thread with a
 //! rayon pool of its own, beside the engine that goes on rendering what is on show.
 //!
 //! An [`Order`] is plain data, taken when Export is pressed: what is edited or opened afterwards does not change it.
 
 mod order;
+mod range;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -17,11 +18,13 @@ use thiserror::Error;
 
 use crate::export::{ExportError, Still, check_target};
 use crate::project::ProjectError;
+use crate::range::{Gate, RangeError};
 use crate::render::preparation::Preparation;
 use crate::render::{Cancel, Flaws};
 use crate::study;
 
 pub(super) use order::{Exactness, Order, Wish};
+pub(super) use range::{Counts, Playing, RangeOrder, numbered};
 
 /// Between two calls that wake the window, milliseconds.
 const WAKE_MS: u64 = 50;
@@ -40,10 +43,21 @@ pub(super) enum Outcome {
         /// Everything assumed or not faithful.
         flaws: Flaws,
     },
-    /// Nothing was written, and why.
+    /// All frames of a range were tried.
+    Range {
+        /// What became of them.
+        counts: Counts,
+        /// Wall-clock time of everything.
+        seconds: f64,
+        /// Everything assumed or not faithful in any of them.
+        flaws: Flaws,
+    },
+    /// Nothing was written, or no more of a range, and why.
     Failed(String),
     /// Nothing was written, as was wished.
     Cancelled,
+    /// A range was ended, as was wished; frames that are done stay.
+    Stopped,
 }
 
 /// How far an export is.
@@ -67,6 +81,8 @@ pub(super) struct Exporter {
 struct Running {
     path: PathBuf,
     begun: Instant,
+    /// Whether it can pause: a range does between two frames.
+    is_range: bool,
     shared: Arc<Shared>,
     outcome: Receiver<Outcome>,
     thread: JoinHandle<()>,
@@ -77,6 +93,8 @@ struct Running {
 struct Shared {
     /// Raised to cancel.
     generation: Arc<AtomicU64>,
+    /// Where a range pauses.
+    gate: Gate,
     /// The rendered share in millionths: a whole number can only rise.
     millionths: AtomicU64,
     /// When the window was last woken, milliseconds since the beginning.
@@ -96,6 +114,8 @@ enum NotExported {
     Project(#[from] ProjectError),
     #[error("{0} is no file but a device or a pipe: choose another name")]
     NoFile(String),
+    #[error(transparent)]
+    Range(#[from] RangeError),
     #[error("the threads to export with cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -112,11 +132,61 @@ impl Exporter {
 
     /// Begins to export, unless an export runs.
     pub(super) fn begin(&mut self, order: Order) {
+        self.start(order.path.clone(), false, move |shared, begun, wake| {
+            shared.outcome(begun, wake, |cancel, progress| {
+                let light = &shared.preparation;
+                export(&order, cancel, light, progress).map(|flaws| Outcome::Done {
+                    path: order.path.clone(),
+                    size: order.project.render.size,
+                    seconds: begun.elapsed().as_secs_f64(),
+                    flaws,
+                })
+            })
+        });
+    }
+
+    /// Begins to export all frames of a range, unless an export runs.
+    pub(super) fn begin_range(&mut self, order: RangeOrder) {
+        self.start(order.output.clone(), true, move |shared, begun, wake| {
+            let outcome = shared.outcome(begun, wake, |cancel, progress| {
+                let gate = &shared.gate;
+                let exported = pool()?.install(|| range::export(order, gate, cancel, progress));
+                exported.map(|(counts, flaws)| Outcome::Range {
+                    counts,
+                    seconds: begun.elapsed().as_secs_f64(),
+                    flaws,
+                })
+            });
+            match outcome {
+                Outcome::Cancelled => Outcome::Stopped,
+                outcome => outcome,
+            }
+        });
+    }
+
+    /// Pauses the range that runs before its next frame, or lets it go on.
+    pub(super) fn pause(&self, pauses: bool) {
+        if let Some(running) = &self.running {
+            running.shared.gate.set_shut(pauses);
+        }
+    }
+
+    /// Whether the range that runs pauses; `None` where none runs.
+    pub(super) fn pauses(&self) -> Option<bool> {
+        let range = self.running.as_ref().filter(|running| running.is_range);
+        range.map(|running| running.shared.gate.is_shut())
+    }
+
+    fn start(
+        &mut self,
+        path: PathBuf,
+        is_range: bool,
+        work: impl FnOnce(&Shared, Instant, &(dyn Fn() + Send + Sync)) -> Outcome + Send + 'static,
+    ) {
         if self.running.is_some() {
             return;
         }
         self.last = None;
-        let path = order.path.clone();
         let begun = Instant::now();
         let shared = Arc::new(Shared::default());
         let (sender, outcome) = channel();
@@ -126,7 +196,7 @@ impl Exporter {
                 let (shared, wake) = (Arc::clone(&shared), Arc::clone(&self.wake));
                 move || {
                     // The window may be gone.
-                    let _ = sender.send(shared.outcome(&order, begun, wake.as_ref()));
+                    let _ = sender.send(work(&shared, begun, wake.as_ref()));
                     wake();
                 }
             });
@@ -135,6 +205,7 @@ impl Exporter {
                 self.running = Some(Running {
                     path,
                     begun,
+                    is_range,
                     shared,
                     outcome,
                     thread,
@@ -210,7 +281,13 @@ impl Drop for Exporter {
 }
 
 impl Shared {
-    fn outcome(&self, order: &Order, begun: Instant, wake: &(dyn Fn() + Send + Sync)) -> Outcome {
+    /// Does the work, and says what became of it.
+    fn outcome(
+        &self,
+        begun: Instant,
+        wake: &(dyn Fn() + Send + Sync),
+        work: impl FnOnce(&Cancel, &(dyn Fn(f64) + Sync)) -> Result<Outcome, NotExported>,
+    ) -> Outcome {
         let progress = |share: f64| {
             self.millionths
                 .fetch_max((share * MILLION) as u64, Ordering::Relaxed);
@@ -226,15 +303,8 @@ impl Shared {
             }
         };
         let cancel = Cancel::when_passed(Arc::clone(&self.generation), 0);
-        match catch_unwind(AssertUnwindSafe(|| {
-            export(order, &cancel, &self.preparation, &progress)
-        })) {
-            Ok(Ok(flaws)) => Outcome::Done {
-                path: order.path.clone(),
-                size: order.project.render.size,
-                seconds: begun.elapsed().as_secs_f64(),
-                flaws,
-            },
+        match catch_unwind(AssertUnwindSafe(|| work(&cancel, &progress))) {
+            Ok(Ok(outcome)) => outcome,
             Ok(Err(NotExported::Export(ExportError::Cancelled))) => Outcome::Cancelled,
             Ok(Err(error)) => Outcome::Failed(with_causes(&error)),
             Err(panic) => {
@@ -268,12 +338,7 @@ fn export(
         .collect();
     check_target(&order.path, &sources)?;
     let mut still = Still::new(&order.project, &order.volume, order.metering)?;
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads((cores / 2).max(1))
-        .thread_name(|i| format!("sootlight-export-{i}"))
-        .build()?;
-    pool.install(|| {
+    pool()?.install(|| {
         let scene = still.scene();
         if let Some(on_show) = order.effects {
             still = still.showing(&scene, on_show);
@@ -286,6 +351,15 @@ fn export(
         let written = still.write(&frame, order.format, &order.path, cancel)?;
         Ok(written.flaws)
     })
+}
+
+/// Threads to export with: half of the cores, for the window stays live.
+fn pool() -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    rayon::ThreadPoolBuilder::new()
+        .num_threads((cores / 2).max(1))
+        .thread_name(|i| format!("sootlight-export-{i}"))
+        .build()
 }
 
 /// An error in one line, with what caused it.

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::canvas::{Beside, Over};
 use super::snapshots::Way;
-use super::{App, Closing, hands, panels, plots};
+use super::{App, Closing, hands, panels, plots, timeline};
 
 /// While a file is read, how far it is is drawn this often.
 const LOADING_FRAME: Duration = Duration::from_millis(100);
@@ -39,6 +39,9 @@ impl eframe::App for App {
         // A hidden window can be closed as well.
         self.guard_the_export(ctx);
         self.drain();
+        if let Some(wait) = self.play() {
+            ctx.request_repaint_after(wait);
+        }
         self.look();
         self.retitle(ctx);
         // A hidden window draws nothing, yet what was loaded begins to render.
@@ -80,6 +83,8 @@ impl eframe::App for App {
             &flaws,
             &mut commands,
         );
+
+        timeline::strip(ui, self, &mut commands);
 
         // The picture has all the space that is left.
         let canvas = ui.available_rect_before_wrap();
@@ -126,9 +131,13 @@ impl eframe::App for App {
             .show(&ctx, &self.engine, &about, &shown.place, &mut commands);
         panels::overlay(ui, self, canvas, &mut commands);
         let size = self.document.fixed_size.unwrap_or(shown.size);
-        self.panels
-            .export
-            .show(&ctx, &self.document, &self.exporter, size, &mut commands);
+        self.panels.export.show(
+            &ctx,
+            &self.document,
+            (&self.exporter, &self.timeline),
+            size,
+            &mut commands,
+        );
 
         if let Some(camera) = &shown.camera {
             self.document.move_camera(camera);

@@ -10,6 +10,7 @@ use super::files::{Request, paths_of};
 use super::maps::Map;
 use super::panels::Command;
 use super::snapshots::{MOST, Way};
+use super::timeline::Step;
 use super::{App, Closing};
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
@@ -55,6 +56,7 @@ impl App {
                     self.document.change(|document| {
                         document.metering = measured.or(document.metering);
                         document.project.view.exposure_ev = 0.0;
+                        document.project.view.let_go();
                     });
                 }
                 Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
@@ -75,6 +77,7 @@ impl App {
                 Command::CompareWith(number) => self.snapshots.choose(number),
                 Command::RestoreSnapshot(number) => self.go_back_to(number),
                 Command::ForgetSnapshot(number) => self.snapshots.forget(number),
+                Command::Step(step) => self.step(step),
                 Command::Dismiss => self.notice = None,
                 Command::Restore => self.restore(),
                 Command::ForgetSession => self.autosave.forget(),
@@ -89,6 +92,19 @@ impl App {
                         self.exporter.begin(order);
                     }
                 }
+                Command::ExportRange(wish) => {
+                    let metering = self.document.metering;
+                    let metering = metering.filter(|_| !self.meter.is_coarse());
+                    let effects = self.effects_on_show();
+                    let order = self
+                        .timeline
+                        .playing()
+                        .and_then(|playing| wish.range(&self.document, playing, metering, effects));
+                    if let Some(order) = order {
+                        self.exporter.begin_range(order);
+                    }
+                }
+                Command::PauseExport(pauses) => self.exporter.pause(pauses),
                 Command::CancelExport => self.exporter.cancel(),
                 Command::CloseAfterExport => self.closing = Closing::AfterExport,
                 Command::CloseNow => self.closing = Closing::Now,
@@ -185,6 +201,9 @@ impl App {
             .filter(|(modifiers, key, _)| !modifiers.is_none() || !held(*key))
             .filter_map(|(modifiers, key, command)| pressed(modifiers, key).then_some(command))
             .collect();
+        if self.timeline.is_open() && !self.panels.export.is_open() {
+            commands.extend(self.frame_keys(ctx));
+        }
         // A menu that is open is what is meant: it closes itself.
         if egui::Popup::is_any_open(ctx) {
             return commands;
@@ -199,6 +218,36 @@ impl App {
                 || self.snapshots.close();
         }
         commands
+    }
+}
+
+impl App {
+    /// What keys ask of the frames. Arrows and the space bar are those of a control that has the focus.
+    fn frame_keys(&mut self, ctx: &Context) -> Vec<Command> {
+        let is_free = ctx.memory(|memory| memory.focused().is_none());
+        let pressed = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        let mut steps = Vec::new();
+        for (key, arrow, step) in [
+            (Key::Comma, Key::ArrowLeft, Step::Back),
+            (Key::Period, Key::ArrowRight, Step::Forth),
+        ] {
+            if pressed(key) || is_free && pressed(arrow) {
+                steps.push(step);
+            }
+        }
+        // The space bar with a drag zooms: it plays when it is let go, unless it was for that.
+        let (held, down, let_go) = ctx.input(|input| {
+            (
+                input.key_down(Key::Space),
+                input.pointer.any_down(),
+                input.key_released(Key::Space),
+            )
+        });
+        self.timeline.space_drags = (held || let_go) && (self.timeline.space_drags || down);
+        if let_go && is_free && !self.timeline.space_drags {
+            steps.push(Step::Toggle);
+        }
+        steps.into_iter().map(Command::Step).collect()
     }
 }
 

@@ -61,6 +61,11 @@ impl Meter {
         Some(Metering::of(picture.film()))
     }
 
+    /// What was measured stands, even if that was on a coarse picture.
+    pub(super) fn settle(&mut self) {
+        self.coarse = None;
+    }
+
     /// Whether what was measured last was measured on a coarse picture.
     pub(super) fn is_coarse(&self) -> bool {
         self.coarse.is_some()

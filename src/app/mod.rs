@@ -25,6 +25,7 @@ mod recent;
 mod snapshots;
 mod start;
 mod theme;
+mod timeline;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -47,9 +48,11 @@ use self::pictures::Submitted;
 use self::plots::Plots;
 use self::recent::Recent;
 use self::snapshots::Snapshots;
+use self::timeline::Timeline;
 use crate::colour::display::View;
 use crate::engine::{Engine, Generation, Picture};
 use crate::project::{Job, Project};
+use crate::range;
 
 /// While tiles come in, the picture is drawn this often: each drawing takes time from the workers where the
 /// processor is also the graphics card.
@@ -77,6 +80,7 @@ pub struct App {
     submitted: Option<Submitted>,
     loader: Loader,
     exporter: Exporter,
+    timeline: Timeline,
     panels: Panels,
     plots: Plots,
     recent: Recent,
@@ -120,6 +124,8 @@ impl App {
             Engine::new(Engine::threads_beside_a_window(), tile_wake).map_err(AppError::Threads)?;
         let export_wake = ctx.clone();
         let exporter = Exporter::new(Arc::new(move || export_wake.request_repaint()));
+        let frame_wake = ctx.clone();
+        let timeline = Timeline::new(Arc::new(move || frame_wake.request_repaint()));
         let study_wake = ctx.clone();
         let study_wake: background::Wake = Arc::new(move || study_wake.request_repaint());
         let map_wake = ctx.clone();
@@ -154,6 +160,7 @@ impl App {
             submitted: None,
             loader,
             exporter,
+            timeline,
             panels: Panels::default(),
             plots: Plots::default(),
             recent: Recent::load(creation.storage),
@@ -200,6 +207,7 @@ impl App {
     pub fn is_settled(&self) -> bool {
         let submitted = self.submitted.as_ref().map(|submitted| &submitted.job);
         self.loader.loading().is_none()
+            && !self.timeline.waits()
             && submitted == self.document.last_job()
             && self.renders_newest()
             && self.picture.progress.finished
@@ -213,6 +221,16 @@ impl App {
     /// of a scene that nobody has looked at stay.
     pub fn choose_numbers(&mut self, chooses: bool) {
         self.accuracy.choose(chooses);
+    }
+
+    /// The number of the frame on show, if the open files are a frame of a sequence.
+    pub fn frame(&self) -> Option<u64> {
+        self.timeline.current()
+    }
+
+    /// Whether frames play.
+    pub fn plays(&self) -> bool {
+        self.timeline.plays()
     }
 
     /// What went wrong last, in words, unless it was dismissed.
@@ -238,7 +256,10 @@ impl App {
             .last_job()
             .into_iter()
             .flat_map(|job| job.flaws.iter());
-        self.picture.progress.flaws.iter().chain(assumed).collect()
+        let held = self.timeline.assumed();
+        let held = held.filter(|_| range::is_held(&self.document.project));
+        let own = self.picture.progress.flaws.iter();
+        own.chain(assumed).chain(held).collect()
     }
 
     fn keep_what_is_set(&mut self, ctx: &egui::Context) {

@@ -30,7 +30,10 @@ impl App {
         }
         let request = match (self.document.wants_a_partner(), paths.as_slice()) {
             (_, []) => return,
-            (Some(open), [path]) => Request::Partner(Arc::clone(open), path.clone()),
+            // A folder is a sequence, and never a missing field.
+            (Some(open), [path]) if !path.is_dir() => {
+                Request::Partner(Arc::clone(open), path.clone())
+            }
             _ => Request::Files(paths, self.document.wanted_of_another()),
         };
         self.notice = None;
@@ -143,6 +146,7 @@ impl App {
         match way(&mut self.document, volume) {
             Ok(()) => {
                 self.loader.forget_older();
+                self.look_for_frames();
                 self.panels.file.path.clear();
                 self.exporter.dismiss();
                 if let Some(volume) = self.document.volume() {

@@ -8,6 +8,7 @@ use clap::{Args as ClapArgs, Parser, Subcommand};
 
 use crate::project::set::KEYS;
 use crate::project::{PRESETS, Quality};
+use crate::sequence::Frames;
 
 /// Fire as physics shows it.
 ///
@@ -87,6 +88,11 @@ pub(super) struct RenderArgs {
     /// take longer.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     pub(super) time_limit: Option<f64>,
+    /// Frames of the numbered sequence that FILE is one of, or the folder that it is: 1-120, 7, or 1-120:2 for every second.
+    /// Exposure, white, the mapping of fields, camera, effects and numbers are measured once for all. The number goes into
+    /// OUT before its ending, or where it has ####. Pictures that are there, made from the same files and settings, are kept.
+    #[arg(long, value_name = "A-B", conflicts_with = "time_limit")]
+    pub(super) frames: Option<Frames>,
     /// Threads to render with; all cores if not given. The picture is the same.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,

@@ -9,6 +9,7 @@ use crate::export::{Format, is_same_file};
 use crate::project::set::did_you_mean;
 use crate::project::{Preset, Project};
 use crate::scene::curves::Bands;
+use crate::sequence::Frames;
 
 /// A thing to do.
 #[derive(Debug)]
@@ -35,6 +36,8 @@ pub(super) struct Render {
     /// Seconds of planning and rendering after which it stops.
     pub(super) time_limit: Option<f64>,
     pub(super) stats: Option<PathBuf>,
+    /// Which frames of the sequence that the project's files are of; `None` for those files alone.
+    pub(super) frames: Option<Frames>,
 }
 
 /// A scene to measure.
@@ -110,6 +113,11 @@ impl Render {
             let picture = [(args.output.as_path(), "the picture")];
             refuse_lost_files("--stats", stats, &picture, &args.project, &project)?;
         }
+        if args.frames.is_some() && project.volume.path.is_empty() {
+            return Err(CliError::Usage(
+                "--frames: the built-in flame has no frames; name one file of a sequence, or its folder".to_owned(),
+            ));
+        }
         let threads = threads(args.threads);
         Ok(Self {
             project,
@@ -118,6 +126,7 @@ impl Render {
             threads,
             time_limit: args.time_limit,
             stats: args.stats,
+            frames: args.frames,
         })
     }
 }

@@ -6,6 +6,7 @@ mod accuracy;
 mod args;
 mod command;
 mod error;
+mod frames;
 mod info;
 mod json;
 mod load;

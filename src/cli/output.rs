@@ -32,6 +32,11 @@ pub(super) fn error(error: &dyn Error) {
     }
 }
 
+/// Writes one line about something that is passed over to standard error.
+pub(super) fn warn(words: &str) {
+    let _ = writeln!(io::stderr().lock(), "{words}");
+}
+
 /// Steps of a progress bar: a tenth of a percent.
 const STEPS: f64 = 1000.0;
 
@@ -57,6 +62,30 @@ pub(super) fn progress_bar(preparation: &Preparation) -> ProgressBar {
     };
     bar.enable_steady_tick(TICK);
     bar.with_style(style.with_key("rest", rest))
+}
+
+/// A bar for so many frames, with a message, on a terminal; nothing in a pipe.
+pub(super) fn frames_bar(frames: usize) -> ProgressBar {
+    let bar = progress_bar(&Preparation::default());
+    bar.set_length(frames as u64 * STEPS as u64);
+    let style = ProgressStyle::with_template("{bar:40} {msg}  {elapsed}, {eta} to go");
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// Moves a bar of frames to a share between 0 and 1 of the frame in hand.
+pub(super) fn advance_frame(bar: &ProgressBar, share: f64) {
+    let (position, steps) = (bar.position(), STEPS as u64);
+    let within = (share * STEPS) as u64;
+    // The last step is the frame's end.
+    let position = position.max(position / steps * steps + within.min(steps - 1));
+    bar.set_position(position);
+}
+
+/// Moves a bar of frames to where so many are done with.
+pub(super) fn next_frame(bar: &ProgressBar, done: usize) {
+    let frames = bar.length().unwrap_or(0) / STEPS as u64;
+    bar.set_position(done as u64 * STEPS as u64);
+    bar.set_message(format!("{done} of {frames} frames"));
 }
 
 /// Moves a bar to a share between 0 and 1, never back: workers report in any order.

@@ -21,6 +21,9 @@ use crate::study::{self, Numbers};
 impl Render {
     /// Does it. The clock is read here only: what the core makes does not depend on time.
     pub(super) fn run(&self) -> Result<(), CliError> {
+        if let Some(frames) = self.frames {
+            return self.run_frames(frames);
+        }
         // A picture that could not be written is not worth its rendering.
         export::check_target(&self.output, &self.project.sources())
             .and_then(|()| self.stats.as_deref().map_or(Ok(()), export::check_writable))

@@ -179,9 +179,10 @@ impl Stats<'_> {
             "false_colour": self.view.false_colour,
             "multiplier": finite(multiplier),
             "white_xyz": view.white_xyz.map(finite),
-            "white": match self.view.white_k {
-                Some(kelvin) => json!({ "set_k": kelvin }),
-                None => json!("from the scene"),
+            "white": match (self.view.white_k, self.view.white_xy) {
+                (Some(kelvin), _) => json!({ "set_k": kelvin }),
+                (None, Some(xy)) => json!({ "set_xy": xy }),
+                (None, None) => json!("from the scene"),
             },
             "half_saturation_cd_m2": match self.view.curve {
                 Curve::Eye => finite(self.half_saturation_cd_m2()),
@@ -193,7 +194,10 @@ impl Stats<'_> {
     }
 
     fn half_saturation_cd_m2(&self) -> f64 {
-        let automatic = self.metering.automatic_half_saturation_cd_m2();
+        let automatic = self
+            .metering
+            .with_set(self.view)
+            .automatic_half_saturation_cd_m2();
         self.view.half_saturation_cd_m2.unwrap_or(automatic)
     }
 

@@ -6,6 +6,7 @@ pub mod exr;
 pub mod format;
 pub mod png;
 pub mod provenance;
+mod read_back;
 pub mod still;
 
 use std::path::PathBuf;
@@ -17,6 +18,7 @@ use crate::render::Pixel;
 pub use atomic::{check_writable, is_same_file, write};
 pub use format::Format;
 pub use provenance::Provenance;
+pub use read_back::scene_of;
 pub use still::{Still, Written, check_target};
 
 /// A picture as the bytes of a file.

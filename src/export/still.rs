@@ -23,6 +23,8 @@ pub struct Still {
     /// What is told of it, so that the same picture comes of it again.
     pub project: Project,
     locked: Option<Metering>,
+    /// A line that the scene file in the picture begins with, as a comment.
+    mark: Option<String>,
 }
 
 /// What is told of a still that was written.
@@ -63,7 +65,15 @@ impl Still {
             job: project.job(volume)?,
             project: project.clone(),
             locked,
+            mark: None,
         })
+    }
+
+    /// With a line by which the picture is told again. The scene file in it begins with it, as a comment.
+    #[must_use]
+    pub fn marked(mut self, mark: String) -> Self {
+        self.mark = Some(mark);
+        self
     }
 
     /// With the effects that somebody has seen computed, none of which is left to be decided. What the still would decide
@@ -166,7 +176,10 @@ impl Still {
             flaws.add(Darkness::of(&self.job).words);
         }
 
-        let provenance = Provenance::new(&self.portable(&own), &flaws);
+        let mut provenance = Provenance::new(&self.portable(&own), &flaws);
+        if let Some(mark) = &self.mark {
+            provenance.scene = format!("# {mark}\n{}", provenance.scene);
+        }
         let encoded = match format {
             Format::Png(bits) => {
                 let view = BakedView::new(&metering.view(&self.project.view()));
@@ -188,7 +201,11 @@ impl Still {
     /// or quality may shift it a little.
     fn portable(&self, own: &Metering) -> Project {
         let mut project = self.project.clone();
-        if let Some(locked) = self.locked {
+        // What is set to become display white is told as it stands.
+        let locked = self
+            .locked
+            .filter(|_| project.view.display_white_cd_m2.is_none());
+        if let Some(locked) = locked {
             let [least, greatest] = EXPOSURE_EV;
             let stops = (locked.exposure / own.exposure).log2();
             let exposure_ev = project.view.exposure_ev + stops;

@@ -21,6 +21,7 @@ impl Project {
     /// # Errors
     /// As [`Project::check`].
     pub(super) fn check_ranges(&self) -> Result<(), ProjectError> {
+        let [white_x, white_y] = self.view.white_xy.unwrap_or([0.5; 2]);
         let numbers = [
             (
                 "soot.radius_nm",
@@ -73,6 +74,13 @@ impl Project {
                 self.view.white_k.unwrap_or(ranges::WHITE_K[0]),
                 ranges::WHITE_K,
             ),
+            (
+                "view.display_white_cd_m2",
+                self.view.display_white_cd_m2.unwrap_or(1.0),
+                ranges::DISPLAY_WHITE_CD_M2,
+            ),
+            ("view.white_xy", white_x, ranges::WHITE_XY),
+            ("view.white_xy", white_y, ranges::WHITE_XY),
             (
                 "view.half_saturation_cd_m2",
                 self.view.half_saturation_cd_m2.unwrap_or(1.0),

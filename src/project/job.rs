@@ -319,18 +319,11 @@ impl Project {
 
     /// The view section.
     pub fn view(&self) -> ViewParams {
-        ViewParams {
-            exposure_ev: self.view.exposure_ev,
-            adaptation: self.view.adaptation,
-            white_k: self.view.white_k,
-            curve: self.view.curve,
-            half_saturation_cd_m2: self.view.half_saturation_cd_m2,
-            false_colour: self.view.false_colour,
-        }
+        self.view.params()
     }
 
-    /// The camera set, with what is not set taken from one that frames the flame.
-    fn camera(&self, bounds: &Aabb, size: [u32; 2]) -> Camera {
+    /// The camera set, with what is not set taken from one that frames a flame's box in a picture of this size.
+    pub fn camera(&self, bounds: &Aabb, size: [u32; 2]) -> Camera {
         let set = &self.camera;
         let fov_deg = set.fov_deg.unwrap_or(FRAMING_FOV_DEG);
         let framing = Camera::framing(bounds, f64::from(size[0]) / f64::from(size[1]), fov_deg);

@@ -42,6 +42,10 @@ pub const EXPOSURE_EV: [f64; 2] = [-20.0, 20.0];
 pub const ADAPTATION: [f64; 2] = [0.0, 1.0];
 /// `view.white_k`: from an ember to the bluest sky.
 pub const WHITE_K: [f64; 2] = [1000.0, 20_000.0];
+/// `view.display_white_cd_m2`: from moonlight to a black body of 100 000 K and beyond.
+pub const DISPLAY_WHITE_CD_M2: [f64; 2] = [1e-3, 1e15];
+/// Each of `view.white_xy`: short of colours without any.
+pub const WHITE_XY: [f64; 2] = [1e-3, 1.0];
 /// `view.half_saturation_cd_m2`: from moonlight to the sun.
 pub const HALF_SATURATION_CD_M2: [f64; 2] = [1e-3, 1e9];
 /// `volume.voxel_size_m`.

@@ -253,6 +253,7 @@ mod tests {
             ("view.adaptation", ranges::ADAPTATION),
             ("view.white_k", ranges::WHITE_K),
             ("view.half_saturation_cd_m2", ranges::HALF_SATURATION_CD_M2),
+            ("view.display_white_cd_m2", ranges::DISPLAY_WHITE_CD_M2),
         ] {
             let expects = find(name).unwrap().expects;
             assert!(

@@ -8,7 +8,6 @@ use std::path::PathBuf;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::colour::display::Curve;
 use crate::physics::soot::{Hold, REFERENCE_RADIUS_NM, SootModel};
 use crate::render::Effects;
 use crate::scene::{Camera, Fuel, Salt};
@@ -17,10 +16,12 @@ use crate::volume::{BuiltIn, Limits, Producer};
 mod air;
 mod render;
 mod stage;
+mod view;
 
 pub use air::{AirSettings, Saturation};
 pub use render::{Quality, RenderSettings};
 pub use stage::{BackdropKind, StageSettings};
+pub use view::ViewSettings;
 
 /// A whole scene file.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -251,39 +252,6 @@ impl From<&Camera> for CameraSettings {
     }
 }
 
-/// `[view]`
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ViewSettings {
-    /// Stops above the automatic exposure, −20 to 20.
-    pub exposure_ev: f64,
-    /// Degree to which the eye has adapted to the white, 0 to 1.
-    pub adaptation: f64,
-    /// Temperature of the black body that is white, K, 1000 to 20000; `None`: measured from the scene.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub white_k: Option<f64>,
-    /// How light becomes display values.
-    pub curve: Curve,
-    /// Luminance to which the eye's curve responds half, cd m⁻²; `None`: follows the measured exposure.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub half_saturation_cd_m2: Option<f64>,
-    /// Whether luminance is shown in stops, each of a colour, in place of the picture.
-    pub false_colour: bool,
-}
-
-impl Default for ViewSettings {
-    fn default() -> Self {
-        Self {
-            exposure_ev: 0.0,
-            adaptation: 0.2,
-            white_k: None,
-            curve: Curve::default(),
-            half_saturation_cd_m2: None,
-            false_colour: false,
-        }
-    }
-}
-
 /// A project whose every key is set: what lists of keys are held against.
 #[cfg(test)]
 pub(super) fn everything_set() -> Project {
@@ -340,7 +308,9 @@ pub(super) fn everything_set() -> Project {
             scattering_orders: 1,
         },
         view: ViewSettings {
+            display_white_cd_m2: Some(4e4),
             white_k: Some(2000.0),
+            white_xy: Some([0.5, 0.4]),
             half_saturation_cd_m2: Some(1e5),
             ..ViewSettings::default()
         },

@@ -82,8 +82,8 @@ impl StageSettings {
         self.spheres = vec![defaults.sphere()];
     }
 
-    /// What this stage takes where nothing is set.
-    pub(super) fn defaults(&self, fire: &Aabb, camera: &Camera) -> StageDefaults {
+    /// What this stage takes where nothing is set, around a fire's box.
+    pub fn defaults(&self, fire: &Aabb, camera: &Camera) -> StageDefaults {
         let fire = if fire.is_empty() {
             Aabb {
                 min: DVec3::splat(-0.5),

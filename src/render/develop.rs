@@ -13,12 +13,16 @@ use crate::colour::display::{BakedView, Curve, View};
 /// What a person sets of the view; exposure is relative to the automatic one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewParams {
-    /// Stops above the automatic exposure.
+    /// Stops above the automatic exposure, or above that of `display_white_cd_m2`.
     pub exposure_ev: f64,
+    /// Luminance that becomes display white at 0 stops, cd m⁻², above 0; `None`: as it was measured.
+    pub display_white_cd_m2: Option<f64>,
     /// Degree of von Kries adaptation to the white, 0 to 1.
     pub adaptation: f64,
     /// Temperature of the black body whose colour is the white, K; `None`: the fire's own white, as it was measured.
     pub white_k: Option<f64>,
+    /// CIE 1931 x and y of the white, y above 0, where no temperature is set; `None`: as it was measured.
+    pub white_xy: Option<[f64; 2]>,
     /// How light becomes display values.
     pub curve: Curve,
     /// Luminance to which the eye's curve responds half, cd m⁻²; `None`: follows the automatic exposure.
@@ -119,16 +123,47 @@ impl Metering {
         }
     }
 
+    /// This, with what is set of it in the place of what was measured.
+    #[must_use]
+    pub fn with_set(&self, params: &ViewParams) -> Self {
+        let white_xyz = match (params.white_k, params.white_xy) {
+            (Some(kelvin), _) => black_body_xyz(kelvin),
+            // What is left to 1 is z; a white of pure red has none.
+            (None, Some([x, y])) => [x, y, (1.0 - x - y).max(0.0)],
+            (None, None) => self.white_xyz,
+        };
+        Self {
+            exposure: params
+                .display_white_cd_m2
+                .map_or(self.exposure, |white| cie::MAX_LUMINOUS_EFFICACY / white),
+            white_xyz,
+            bright_y: self.bright_y,
+        }
+    }
+
+    /// Luminance that becomes display white at 0 stops, cd m⁻².
+    pub fn display_white_cd_m2(&self) -> f64 {
+        cie::MAX_LUMINOUS_EFFICACY / self.exposure
+    }
+
+    /// CIE 1931 x and y of the white; `None` where it is black.
+    pub fn white_xy(&self) -> Option<[f64; 2]> {
+        let [x, y, z] = self.white_xyz;
+        let sum = x + y + z;
+        (sum > 0.0 && y > 0.0).then(|| [x / sum, y / sum])
+    }
+
     /// The view of a film metered so.
     pub fn view(&self, params: &ViewParams) -> View {
+        let held = self.with_set(params);
         View {
-            exposure: self.exposure * params.exposure_ev.exp2(),
+            exposure: held.exposure * params.exposure_ev.exp2(),
             adaptation: params.adaptation,
-            white_xyz: params.white_k.map_or(self.white_xyz, black_body_xyz),
+            white_xyz: held.white_xyz,
             curve: params.curve,
             half_saturation: params
                 .half_saturation_cd_m2
-                .map_or(AUTOMATIC_HALF, |half| self.share_of_white(half)),
+                .map_or(AUTOMATIC_HALF, |half| held.share_of_white(half)),
             false_colour: params.false_colour,
         }
     }
@@ -230,8 +265,10 @@ mod tests {
     fn params(white_k: Option<f64>, half_saturation_cd_m2: Option<f64>) -> ViewParams {
         ViewParams {
             exposure_ev: 1.0,
+            display_white_cd_m2: None,
             adaptation: 1.0,
             white_k,
+            white_xy: None,
             curve: Curve::Eye,
             half_saturation_cd_m2,
             false_colour: false,
@@ -249,6 +286,35 @@ mod tests {
         let white = |white_k| METERING.view(&params(white_k, None)).white_xyz;
         assert_eq!(white(None), METERING.white_xyz);
         assert_eq!(white(Some(2856.0)), black_body_xyz(2856.0));
+    }
+
+    #[test]
+    fn what_was_measured_and_is_set_by_hand_gives_the_same_view() {
+        let measured = METERING.view(&params(None, Some(700.0)));
+        let set = ViewParams {
+            display_white_cd_m2: Some(METERING.display_white_cd_m2()),
+            white_xy: METERING.white_xy(),
+            ..params(None, Some(700.0))
+        };
+        // Another film, metered otherwise, is developed alike.
+        let other = Metering {
+            exposure: 7.0,
+            white_xyz: [1.0; 3],
+            bright_y: 1.0,
+        };
+        let held = other.view(&set);
+        let is_near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+        assert!(is_near(held.exposure, measured.exposure));
+        assert!(is_near(held.half_saturation, measured.half_saturation));
+        let [x, y, z] = held.white_xyz.map(|part| part / held.white_xyz[1]);
+        let [u, v, w] = METERING.white_xyz.map(|part| part / METERING.white_xyz[1]);
+        assert!(is_near(x, u) && is_near(y, v) && is_near(z, w));
+        // A temperature is the white whatever the chromaticity.
+        let both = ViewParams {
+            white_k: Some(2856.0),
+            ..set
+        };
+        assert_eq!(other.view(&both).white_xyz, black_body_xyz(2856.0));
     }
 
     #[test]

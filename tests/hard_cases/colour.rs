@@ -70,8 +70,10 @@ fn case_61_an_all_black_picture_is_black_and_no_nan() {
     for curve in Curve::ALL {
         let params = ViewParams {
             exposure_ev: 0.0,
+            display_white_cd_m2: None,
             adaptation: 1.0,
             white_k: None,
+            white_xy: None,
             curve,
             half_saturation_cd_m2: None,
             false_colour: false,

@@ -16,6 +16,8 @@ impl Document {
         // The built-in flame can be rendered: there it is a setting that cannot, which a person can change.
         if !volume.sources.is_empty() {
             self.project.job_keeping(&volume, &mut self.backdrops)?;
+            // A folder was named in the place of a frame in it.
+            self.project.volume.path.clone_from(&volume.sources);
         }
         self.put(volume);
         self.history = History::default();
@@ -119,6 +121,30 @@ impl Document {
             }
         });
         self.restore(filled);
+    }
+
+    /// Shows another frame of the sequence that the open files are one of: every setting stays, and what was measured. No
+    /// step of undo: all steps are of this frame from here on.
+    ///
+    /// # Errors
+    /// [`ProjectError`]: it cannot be rendered with these settings. Everything stays as it was.
+    pub fn show_frame(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
+        self.project.job_keeping(&volume, &mut self.backdrops)?;
+        let chosen = self.chosen;
+        let paths = volume.sources.clone();
+        let recognised = recognise(&volume);
+        let frame = Some(Arc::new(OpenVolume { volume, recognised }));
+        let before = self.open.clone();
+        self.history.for_each(|step| {
+            if is_same(step.open.as_ref(), before.as_ref()) {
+                step.open.clone_from(&frame);
+                step.project.volume.path.clone_from(&paths);
+            }
+        });
+        self.project.volume.path = paths;
+        self.restore(frame);
+        self.chosen = chosen;
+        Ok(())
     }
 
     /// Gives up on what is lacking, until something else is wanted or open.

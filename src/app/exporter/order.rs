@@ -77,6 +77,19 @@ impl Wish {
         on_show: Option<Effects>,
     ) -> Option<Order> {
         let volume = Arc::clone(document.volume()?);
+        let project = self.project(document)?;
+        Some(Order {
+            project,
+            volume,
+            metering,
+            effects: on_show,
+            path: self.path,
+            format: self.format,
+        })
+    }
+
+    /// What is set, with size, camera and numbers of this wish.
+    pub(super) fn project(&self, document: &Document) -> Option<Project> {
         // A camera that frames the flame would stand elsewhere in a picture of another shape.
         let camera = document.last_job()?.camera;
         let mut project = self.exactness.of(&document.project);
@@ -90,14 +103,7 @@ impl Wish {
         }
         project.camera = CameraSettings::from(&camera);
         project.render.size = self.size;
-        Some(Order {
-            project,
-            volume,
-            metering,
-            effects: on_show,
-            path: self.path,
-            format: self.format,
-        })
+        Some(project)
     }
 }
 

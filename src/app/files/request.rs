@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::project::{Preset, Project};
+use crate::sequence::{Sequence, SequenceError};
 use crate::volume::{self, BuiltIn, Limits, Volume, VolumeError, Wanted, Watch};
 
 /// Share of a partner's load that opening it with the open volume takes: seldom must it be read again alone.
@@ -103,7 +104,13 @@ impl Request {
 }
 
 /// Does what is asked, and says what came of it.
-pub(super) fn load(request: Request, limits: &Limits, watch: &Watch) -> Outcome {
+pub(super) fn load(mut request: Request, limits: &Limits, watch: &Watch) -> Outcome {
+    if let Request::Project(paths, _) | Request::Files(paths, _) = &mut request
+        && let Err(error) = name_frame(paths)
+    {
+        let words = error.to_string();
+        return Outcome::Failed { request, words };
+    }
     let open = |paths, wanted| volume::open_wanted(paths, wanted, limits, watch);
     let outcome = match &request {
         Request::BuiltIn(flame) => flame
@@ -141,6 +148,18 @@ pub(super) fn load(request: Request, limits: &Limits, watch: &Watch) -> Outcome 
         grid.bulk();
     }
     outcome
+}
+
+/// Names the first frame of the only sequence in a folder in the place of that folder.
+fn name_frame(paths: &mut Vec<PathBuf>) -> Result<(), SequenceError> {
+    if let [folder] = paths.as_slice()
+        && folder.is_dir()
+    {
+        let sequence = Sequence::of(folder)?;
+        let [first, _] = sequence.ends();
+        *paths = sequence.paths(first);
+    }
+    Ok(())
 }
 
 /// The open volume with the file's field; or the file alone, where it has the same field.

@@ -1,5 +1,6 @@
 //! Writing the picture into a file: what to ask for, how far it is, and what became of it.
 
+mod range;
 mod size;
 mod target;
 
@@ -13,6 +14,7 @@ use self::target::Target;
 use super::{Command, short};
 use crate::app::exporter::{Exactness, Exporter, Outcome, Progress, Wish};
 use crate::app::theme::{ERROR, IDLE, WARNING};
+use crate::app::timeline::Timeline;
 use crate::app::{App, Document};
 use crate::export::Format;
 use crate::render::{MAX_SIDE, Settings};
@@ -55,7 +57,7 @@ impl ExportPanel {
         &mut self,
         ctx: &Context,
         document: &Document,
-        exporter: &Exporter,
+        (exporter, timeline): (&Exporter, &Timeline),
         canvas: [u32; 2],
         commands: &mut Vec<Command>,
     ) {
@@ -73,7 +75,7 @@ impl ExportPanel {
                     .max_height(whole.height() - BAR)
                     .show(ui, |ui| {
                         ui.set_width(WIDTH.min(whole.width() - 40.0));
-                        self.contents(ui, document, exporter, canvas, commands);
+                        self.contents(ui, document, (exporter, timeline), canvas, commands);
                     });
             });
     }
@@ -82,7 +84,7 @@ impl ExportPanel {
         &mut self,
         ui: &mut Ui,
         document: &Document,
-        exporter: &Exporter,
+        (exporter, timeline): (&Exporter, &Timeline),
         canvas: [u32; 2],
         commands: &mut Vec<Command>,
     ) {
@@ -123,7 +125,7 @@ impl ExportPanel {
             }),
             _ => None,
         };
-        self.buttons(ui, exporter, wish, commands);
+        self.buttons(ui, (exporter, timeline), wish, commands);
         if let Some(outcome) = exporter.last() {
             tell(ui, Label::new, outcome);
         }
@@ -216,13 +218,14 @@ impl ExportPanel {
     fn buttons(
         &mut self,
         ui: &mut Ui,
-        exporter: &Exporter,
+        (exporter, timeline): (&Exporter, &Timeline),
         wish: Option<Wish>,
         commands: &mut Vec<Command>,
     ) {
         let runs = exporter.running().is_some();
         let existing = self.target.existing(runs);
         ui.horizontal(|ui| {
+            range::buttons(ui, exporter, timeline, wish.as_ref(), commands);
             if runs {
                 if ui.button("Cancel").clicked() {
                     commands.push(Command::CancelExport);
@@ -333,9 +336,22 @@ fn tell(ui: &mut Ui, label: impl FnOnce(RichText) -> Label, outcome: &Outcome) {
             }
             written.on_hover_text(more);
         }
+        Outcome::Range {
+            counts,
+            seconds,
+            flaws,
+        } => {
+            let more: Vec<&str> = flaws.iter().collect();
+            range::tell(ui, label, counts, *seconds, &more.join("\n• "));
+        }
         Outcome::Failed(words) => {
             ui.add(label(RichText::new(words).color(ERROR)))
                 .on_hover_text(words);
+        }
+        Outcome::Stopped => {
+            ui.add(label(RichText::new(
+                "Export stopped; frames that are written stay",
+            )));
         }
         Outcome::Cancelled => {
             ui.add(label(RichText::new(

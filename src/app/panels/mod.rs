@@ -31,6 +31,7 @@ use super::exporter::Wish;
 use super::maps::Map;
 use super::recent::Recent;
 use super::snapshots::{Snapshots, Way};
+use super::timeline::Step;
 use crate::project::{Control, Job, Mend, Preset, why_idle};
 use crate::render::Facts;
 use crate::render::costs::Cost;
@@ -79,6 +80,8 @@ pub(super) enum Command {
     RestoreSnapshot(u64),
     /// Throw the snapshot of this number away.
     ForgetSnapshot(u64),
+    /// Go to another frame, play, or bound what plays.
+    Step(Step),
     /// Take the notice away.
     Dismiss,
     /// Open and set what was in a window that did not end by itself.
@@ -89,6 +92,10 @@ pub(super) enum Command {
     OpenExport,
     /// Export this.
     Export(Wish),
+    /// Export all frames that play, named after this.
+    ExportRange(Wish),
+    /// Pause the range that is exported, or go on.
+    PauseExport(bool),
     /// Stop exporting.
     CancelExport,
     /// Close the window as soon as the export is done.

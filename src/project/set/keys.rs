@@ -351,6 +351,11 @@ pub const KEYS: &[Key] = &[
         "above the automatic exposure",
     ),
     key(
+        "view.display_white_cd_m2",
+        "a number of cd/m², 0.001 to 1000000000000000",
+        "luminance that is display white at 0 stops; measured from the scene if not set",
+    ),
+    key(
         "view.adaptation",
         "a number, 0 to 1",
         "how far the eye has adapted to the white",
@@ -358,7 +363,12 @@ pub const KEYS: &[Key] = &[
     key(
         "view.white_k",
         "a number of K, 1000 to 20000",
-        "the black body that is white; measured from the scene if not set",
+        "the black body that is white; white_xy if not set",
+    ),
+    key(
+        "view.white_xy",
+        "two numbers, each 0.001 to 1, such as [0.52, 0.41]",
+        "CIE 1931 chromaticity of the white; measured from the scene if not set",
     ),
     key(
         "view.curve",

@@ -1,0 +1,149 @@
+//! What one frame takes from its own file, set as keys so that others take the same.
+
+use crate::math::Aabb;
+use crate::project::{BackdropKind, CameraSettings, FieldSettings, Job, Project, Up};
+use crate::scene::flame;
+use crate::volume::{FieldKind, FieldMap, FieldMaps, Producer, UpAxis};
+
+/// Whether a project takes nothing from its file's own peaks any more: every field is there with all its numbers, or set away.
+pub fn is_held(project: &Project) -> bool {
+    FieldKind::ALL.into_iter().all(|kind| {
+        let field = project.volume.field(kind);
+        let numbers = [field.scale, field.offset, field.min, field.max];
+        match field.grid.as_deref() {
+            Some("") => true,
+            Some(_) => numbers.iter().all(Option::is_some),
+            None => false,
+        }
+    })
+}
+
+/// What a picture takes from its file where nothing is set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Taken {
+    /// Whose conventions the fields follow.
+    producer: Producer,
+    maps: FieldMaps,
+    /// The highest value of each mapped field in the file.
+    peaks: Vec<(FieldKind, f64)>,
+    up: UpAxis,
+    /// Edge of a voxel, m, where the file's own was not taken.
+    voxel_size_m: Option<f64>,
+    /// The box of the fire, m; empty if there is none.
+    fire: Aabb,
+}
+
+impl Taken {
+    /// What a job of this project took from its volume.
+    pub fn of(project: &Project, job: &Job) -> Self {
+        let placement = &job.flame.placement;
+        let mut maps = job.flame.maps.clone();
+        // The fuel says how much soot there is only where no number does: from here on one does.
+        if job.soot_follows_fuel
+            && let Some(soot) = &mut maps.soot
+        {
+            let factor = project.fuel.name.row().soot_yield;
+            *soot = FieldMap::new(
+                &soot.grid,
+                factor * soot.scale,
+                factor * soot.offset,
+                factor * soot.min,
+                factor * soot.max,
+            );
+        }
+        let peak = |(kind, map): (FieldKind, &FieldMap)| {
+            let (_, high) = job.volume.grid(&map.grid)?.range();
+            Some((kind, f64::from(high)))
+        };
+        Self {
+            producer: job.producer,
+            peaks: maps.iter().filter_map(peak).collect(),
+            maps,
+            up: placement.up,
+            voxel_size_m: (placement.metres_per_unit != 1.0)
+                .then_some(project.volume.voxel_size_m.unwrap_or(job.proposed_voxel_m)),
+            fire: flame::world_bounds(&job.volume, &job.flame.maps, placement),
+        }
+    }
+
+    /// The highest value of a field in the file; 0 where it has none.
+    pub(super) fn peak(&self, kind: FieldKind) -> f64 {
+        let mut peaks = self.peaks.iter();
+        peaks
+            .find(|(other, _)| *other == kind)
+            .map_or(0.0, |(_, peak)| *peak)
+    }
+
+    /// Takes in another frame: its fire is framed as well, and a field that is mapped by its peak is mapped by the higher one.
+    pub(super) fn join(&mut self, other: &Self) {
+        self.fire = self.fire.union(&other.fire);
+        if self.producer != other.producer {
+            return;
+        }
+        for kind in FieldKind::ALL {
+            let is_same = self.maps.get(kind).map(|map| &map.grid)
+                == other.maps.get(kind).map(|map| &map.grid);
+            if !is_same || other.peak(kind) <= self.peak(kind) {
+                continue;
+            }
+            let theirs = other.maps.get(kind).cloned();
+            match kind {
+                FieldKind::Soot => self.maps.soot = theirs,
+                FieldKind::Smoke => self.maps.smoke = theirs,
+                FieldKind::Flame => self.maps.flame = theirs,
+                FieldKind::Temperature => self.maps.temperature = theirs,
+            }
+            self.peaks.retain(|(it, _)| *it != kind);
+            self.peaks.push((kind, other.peak(kind)));
+        }
+    }
+
+    /// Sets it all in a project, for pictures of its size. What is set by hand stays; a field that was not made from anything
+    /// stays away.
+    pub fn hold(&self, project: &mut Project) {
+        let volume = &mut project.volume;
+        volume.producer = self.producer;
+        volume.up = match self.up {
+            UpAxis::Y => Up::Y,
+            UpAxis::Z => Up::Z,
+        };
+        volume.voxel_size_m = volume.voxel_size_m.or(self.voxel_size_m);
+        for kind in FieldKind::ALL {
+            let field = volume.field_mut(kind);
+            match self.maps.get(kind) {
+                Some(map) => {
+                    *field = FieldSettings {
+                        grid: Some(map.grid.clone()),
+                        scale: Some(map.scale),
+                        offset: Some(map.offset),
+                        min: Some(map.min),
+                        max: Some(map.max),
+                    }
+                }
+                None => field.grid = Some(String::new()),
+            }
+        }
+        if self.fire.is_empty() {
+            return;
+        }
+        let camera = project.camera(&self.fire, project.render.size);
+        project.camera = CameraSettings::from(&camera);
+        let defaults = project.stage.defaults(&self.fire, &camera);
+        let stage = &mut project.stage;
+        if stage.ground {
+            stage
+                .ground_height_m
+                .get_or_insert(defaults.ground_height_m);
+        }
+        if stage.backdrop != BackdropKind::None {
+            stage
+                .backdrop_distance_m
+                .get_or_insert(defaults.backdrop_distance_m);
+        }
+        if stage.backdrop == BackdropKind::Checker {
+            stage
+                .backdrop_square_m
+                .get_or_insert(defaults.backdrop_square_m);
+        }
+    }
+}

@@ -1,0 +1,441 @@
+//! `render --frames`: a range of a sequence, its names, its gaps and bad frames, and what is held over it.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use sootlight::project::Project;
+
+use super::place::{Place, read_png};
+use crate::common::shared;
+
+/// What makes renders of these small fires quick, and keeps light of one part of a picture from the other.
+const QUICK: &str = "--size 48x32 --set render.step_voxels=1 --set render.wavelengths=4 \
+                     --set render.samples_per_pixel=1 --set effects.scattering=off --set effects.refraction=off";
+
+/// Writes a frame as two files of one field each: a cube on the left that never changes, of solver heat 1, and one on the
+/// right of this heat.
+fn write_frame(place: &Place, number: &str, heat: f64) {
+    let [width, height, depth] = [20, 6, 8];
+    let mut files = [
+        (format!("density_{number}.txt"), String::new()),
+        (format!("temperature_{number}.txt"), String::new()),
+    ];
+    for (_, text) in &mut files {
+        writeln!(text, "{width} {height} {depth}").unwrap();
+    }
+    for i in 0..width * height * depth {
+        let (x, y, z) = (i % width, i / width % height, i / (width * height));
+        let inside = (1..5).contains(&y) && (1..7).contains(&z);
+        let [density, heat] = match x {
+            2..7 if inside => [0.3, 1.0],
+            13..18 if inside => [0.3, heat],
+            _ => [0.0, 0.0],
+        };
+        writeln!(files[0].1, "{density}").unwrap();
+        writeln!(files[1].1, "{heat}").unwrap();
+    }
+    for (name, text) in files {
+        fs::write(place.path(&name), text).unwrap();
+    }
+}
+
+/// A place with frames 8, 9, 10 and 12, the hottest of them last.
+fn place() -> Place {
+    let place = Place::new();
+    for (number, heat) in [("08", 0.6), ("09", 0.9), ("10", 1.1), ("12", 1.2)] {
+        write_frame(&place, number, heat);
+    }
+    place
+}
+
+const RANGE: &str = "render density_08.txt temperature_08.txt";
+
+fn stats(place: &Place, name: &str) -> Value {
+    serde_json::from_str(&place.text(name)).unwrap()
+}
+
+/// Mean level, 0 to 65535, of the left part of a picture of 16 bits, where nothing changes.
+fn left(path: &Path) -> f64 {
+    let (pixels, info, _) = read_png(path);
+    let row = info.width as usize * 6;
+    let rows = pixels.chunks_exact(row);
+    let levels: Vec<f64> = rows
+        .flat_map(|row| row[..row.len() * 2 / 5].chunks_exact(2))
+        .map(|level| f64::from(u16::from_be_bytes([level[0], level[1]])))
+        .collect();
+    levels.iter().sum::<f64>() / levels.len() as f64
+}
+
+#[test]
+fn frames_are_named_by_their_numbers_and_gaps_and_bad_frames_are_told() {
+    let place = place();
+    let [said, errors] = place.expect(0, &format!("{RANGE} -o fire.png --frames 8-13 {QUICK}"));
+    for name in ["fire_08.png", "fire_09.png", "fire_10.png", "fire_12.png"] {
+        assert!(
+            said.contains(&format!("{name}: 48 × 32 pixels in ")),
+            "{said}"
+        );
+        assert!(place.path(name).exists());
+    }
+    assert!(!place.path("fire_11.png").exists());
+    assert!(
+        said.contains("frame 11: skipped, there is no such file"),
+        "{said}"
+    );
+    assert!(said.contains("frame 13: skipped"), "{said}");
+    assert!(
+        said.ends_with("4 frames: 4 rendered, 0 kept, 0 failed\n"),
+        "{said}"
+    );
+    assert_eq!(errors, "", "a pipe gets no progress bar");
+
+    // A bad frame ends nothing, wherever it stands, and is told in the exit code.
+    fs::write(place.path("temperature_08.txt"), "20 6 8\n1 2 three\n").unwrap();
+    fs::remove_file(place.path("temperature_10.txt")).unwrap();
+    let words = format!("{RANGE} -o a_###.png --frames 8-12:2 --stats s.json {QUICK}");
+    let [said, errors] = place.expect(1, &words);
+    assert!(place.path("a_012.png").exists() && !place.path("a_010.png").exists());
+    assert!(
+        !place.path("a_009.png").exists(),
+        "every second was asked for"
+    );
+    assert!(errors.contains("frame 08: skipped, "), "{errors}");
+    assert!(
+        errors.contains("temperature_08.txt: the header 20 6 8 announces"),
+        "{errors}"
+    );
+    assert!(
+        errors.contains("frame 10: skipped, temperature_10.txt: cannot be read"),
+        "{errors}"
+    );
+    assert!(
+        errors.contains("2 of 3 frames could not be rendered"),
+        "{errors}"
+    );
+    assert!(
+        said.ends_with("3 frames: 1 rendered, 0 kept, 2 failed\n"),
+        "{said}"
+    );
+    let stats = stats(&place, "s.json");
+    let states: Vec<&Value> = (0..3).map(|i| &stats["frames"][i]["state"]).collect();
+    assert_eq!(states, ["failed", "failed", "rendered"]);
+    assert!(
+        stats["frames"][2]["seconds"]["render"].is_f64() && stats["frames"][2]["flaws"].is_array()
+    );
+    assert_eq!(stats["measured_on_frame"], 12);
+}
+
+#[test]
+fn a_folder_is_the_only_sequence_in_it() {
+    let place = Place::new();
+    fs::create_dir(place.path("sim")).unwrap();
+    for number in [1, 2] {
+        let name = format!("sim/soot{number}.vdb");
+        crate::common::write_vdb(
+            &place.path(&name),
+            &[("soot", 2e-6), ("temperature", 1700.0)],
+        );
+    }
+    let [said, _] = place.expect(0, &format!("render sim -o sim/a.png --frames 1-2 {QUICK}"));
+    assert!(
+        said.contains("sim/a_1.png") && place.path("sim/a_2.png").exists(),
+        "{said}"
+    );
+    // The pictures beside the volumes are no other sequence.
+    place.expect(0, &format!("render sim -o sim/a.png --frames 2 {QUICK}"));
+    let [_, error] = place.expect(1, &format!("render . -o a.png --frames 1-2 {QUICK}"));
+    assert!(error.contains("no sequence is in this folder"), "{error}");
+}
+
+#[test]
+fn what_does_not_change_does_not_flicker() {
+    let place = place();
+    write_frame(&place, "13", 0.6);
+    // The march cuts its steps by what all of a frame's light needs: fine ones make no difference.
+    let keys = format!("--bits 16 {QUICK} --set render.step_voxels=0.05");
+    let words = format!("{RANGE} -o a.png --frames 8-13 --stats s.json {keys}");
+    let [said, _] = place.expect(0, &words);
+    let still = left(&place.path("a_08.png"));
+    assert!(still > 1000.0, "nothing is seen: {still}");
+    for name in ["a_09.png", "a_10.png", "a_12.png"] {
+        let ratio = left(&place.path(name)) / still;
+        assert!((ratio - 1.0).abs() < 1e-3, "{name} flickers: {ratio}");
+    }
+    let [first, last] = ["a_08.png", "a_13.png"].map(|name| read_png(&place.path(name)).0);
+    assert!(first == last, "the same fire twice");
+    // The hottest frame's peak is the hottest of all: what is cooler is so in each.
+    let stats = stats(&place, "s.json");
+    let temperature = &stats["frames"][0]["scene"]["volume"]["temperature"];
+    let scale = temperature["scale"].as_f64().unwrap();
+    assert!((scale / (1700.0 / 1.2) - 1.0).abs() < 1e-6, "{scale}");
+    // What is said to be assumed of one file is said of all.
+    assert!(
+        said.contains("mapped to 300 K at 0 and 2000 K at the peak"),
+        "{said}"
+    );
+
+    // Each by itself takes its own peak, and measures itself.
+    let alone = |number: &str| {
+        let name = format!("alone_{number}.png");
+        let files = format!("density_{number}.txt temperature_{number}.txt");
+        place.expect(0, &format!("render {files} -o {name} {keys}"));
+        left(&place.path(&name))
+    };
+    let ratio = alone("08") / alone("12");
+    assert!(
+        (ratio - 1.0).abs() > 0.1,
+        "this fire would not have flickered: {ratio}"
+    );
+}
+
+#[test]
+fn a_frame_tells_how_to_make_it_again() {
+    let place = place();
+    for (format, keys) in [("png", "--bits 16"), ("exr", "")] {
+        let words = format!("{RANGE} -o a.{format} --frames 8-12 {keys} {QUICK}");
+        place.expect(0, &words);
+        for number in ["08", "12"] {
+            let picture = place.path(&format!("a_{number}.{format}"));
+            let sootlight_format = match format {
+                "png" => sootlight::export::Format::Png(sootlight::export::png::Bits::Sixteen),
+                _ => sootlight::export::Format::Exr,
+            };
+            let scene = sootlight::export::scene_of(&picture, sootlight_format).unwrap();
+            fs::write(place.path("again.toml"), &scene).unwrap();
+            place.expect(
+                0,
+                &format!("render --scene again.toml -o again.{format} {keys}"),
+            );
+            let again = place.path(&format!("again.{format}"));
+            assert!(
+                pixels(&again) == pixels(&picture),
+                "frame {number} as {format}"
+            );
+        }
+    }
+}
+
+/// Every number of a picture.
+fn pixels(path: &Path) -> Vec<u32> {
+    if path.extension().is_some_and(|ending| ending == "png") {
+        return read_png(path).0.into_iter().map(u32::from).collect();
+    }
+    let image = exr::prelude::read_first_flat_layer_from_file(path).unwrap();
+    let channels = image.layer_data.channel_data.list.iter();
+    let values = channels.flat_map(|channel| channel.sample_data.values_as_f32());
+    values.map(f32::to_bits).collect()
+}
+
+#[test]
+fn what_is_done_is_kept_by_its_content() {
+    let place = place();
+    let words = format!("{RANGE} -o a.png --frames 8-12 {QUICK}");
+    let made = |words: &str| {
+        let [said, _] = place.expect(0, words);
+        let made: Vec<String> = said
+            .lines()
+            .filter(|line| line.contains(" pixels in "))
+            .map(|line| line.split(':').next().unwrap().to_owned())
+            .collect();
+        made
+    };
+    let all = ["a_08.png", "a_09.png", "a_10.png", "a_12.png"];
+    assert_eq!(made(&words), all);
+    let before = all.map(|name| fs::read(place.path(name)).unwrap());
+    assert_eq!(made(&words), [""; 0]);
+    let [said, _] = place.expect(0, &words);
+    assert!(
+        said.contains("a_09.png: kept, made from the same files and settings"),
+        "{said}"
+    );
+
+    // A picture that is lost, cut short, or that of another frame under this name.
+    fs::remove_file(place.path("a_08.png")).unwrap();
+    fs::write(place.path("a_09.png"), &before[1][..before[1].len() - 6]).unwrap();
+    fs::write(place.path("a_10.png"), &before[3]).unwrap();
+    assert_eq!(made(&words), all[..3]);
+    for (name, before) in all.iter().zip(&before) {
+        assert!(fs::read(place.path(name)).unwrap() == *before, "{name}");
+    }
+
+    // A file that is another one now; its neighbours stand.
+    write_frame(&place, "10", 1.05);
+    assert_eq!(made(&words), ["a_10.png"]);
+    // The same file written again is the same file; so is one that lies elsewhere.
+    write_frame(&place, "10", 1.05);
+    assert_eq!(made(&words), [""; 0]);
+    fs::create_dir(place.path("moved")).unwrap();
+    for number in ["08", "09", "10", "12"] {
+        for name in ["density", "temperature"].map(|name| format!("{name}_{number}.txt")) {
+            fs::rename(place.path(&name), place.path(&format!("moved/{name}"))).unwrap();
+        }
+    }
+    let words = words.replace("density_08", "moved/density_08");
+    let words = words.replace("temperature_08", "moved/temperature_08");
+    assert_eq!(made(&words), [""; 0]);
+    // Other settings, another format: everything is made anew.
+    assert_eq!(made(&format!("{words} --set soot.amount=0.9")), all);
+    assert_eq!(
+        made(&format!("{words} --set soot.amount=0.9 --bits 16")),
+        all
+    );
+}
+
+#[test]
+fn what_is_set_by_hand_stays() {
+    let place = place();
+    let set = "--set view.display_white_cd_m2=2000 --set view.white_k=2100 --set camera.eye=[0.1,-3,0.1] \
+               --set camera.target=[0.1,0,0.05] --set volume.temperature.scale=700 --set effects.smoke=off \
+               --set stage.ground=true --set fuel.name=acetylene";
+    place.expect(0, &format!("{RANGE} -o a.png --frames 8-9 {set} {QUICK}"));
+    let (_, _, text) = read_png(&place.path("a_09.png"));
+    let project = Project::from_toml(&text("sootlight.scene"), Path::new("")).unwrap();
+    assert_eq!(project.view.display_white_cd_m2, Some(2000.0));
+    assert_eq!(
+        (project.view.white_k, project.view.white_xy),
+        (Some(2100.0), None)
+    );
+    assert_eq!(project.camera.eye.unwrap().y, -3.0);
+    assert_eq!(project.volume.temperature.scale, Some(700.0));
+    assert_eq!(
+        project.volume.temperature.grid.as_deref(),
+        Some("temperature")
+    );
+    assert_eq!(project.render.step_voxels, Some(1.0));
+    assert!(project.stage.ground && project.stage.ground_height_m.is_some());
+    assert_eq!(project.soot.amount, 1.0);
+    // Acetylene has four times the soot of propane, 2e-6 at the peak of a density of 0.3.
+    let soot = project.volume.soot.max.unwrap();
+    assert!((soot / 8e-6 - 1.0).abs() < 1e-9, "{soot}");
+}
+
+#[test]
+fn what_makes_no_sense_is_said() {
+    let place = place();
+    for (words, code, wanted) in [
+        ("-o a.png --frames 1-2", 2, "built-in flame has no frames"),
+        (
+            "density_08.txt -o a.png --frames 9-8",
+            2,
+            "comes before the first",
+        ),
+        (
+            "density_08.txt -o a.png --frames x",
+            2,
+            "expected frames such as",
+        ),
+        (
+            "density_08.txt -o a.png --frames 8-9 --time-limit 5",
+            2,
+            "cannot be used with",
+        ),
+        (
+            "density_08.txt -o a.png --frames 1-7",
+            1,
+            "density_##.txt has frames from 08 to 12",
+        ),
+        (
+            "density.txt -o a.png --frames 1-7",
+            1,
+            "its name has no number",
+        ),
+        (
+            "density_08.txt -o a.png --frames 8-9 --stats a_09.png",
+            2,
+            "the picture of a frame is the same file",
+        ),
+        (
+            "density_08.txt -o none/a.png --frames 8-9",
+            1,
+            "folder does not exist",
+        ),
+    ] {
+        let [_, error] = place.expect(code, &format!("render {words} {QUICK}"));
+        assert!(error.contains(wanted), "{words}: {error}");
+    }
+    let names = place.names();
+    assert!(
+        names.iter().all(|name| !name.starts_with("a_")),
+        "{names:?}"
+    );
+}
+
+/// Mean luminance of a picture that was developed linearly, in display white, and that of the light itself, cd m⁻².
+fn means(place: &Place, frame: u32) -> [f64; 2] {
+    let (levels, ..) = read_png(&place.path(&format!("a_{frame:04}.png")));
+    let linear = |level: u16| {
+        let display = f64::from(level) / 65535.0;
+        if display <= 0.04045 {
+            display / 12.92
+        } else {
+            ((display + 0.055) / 1.055).powf(2.4)
+        }
+    };
+    let levels: Vec<f64> = levels
+        .chunks_exact(2)
+        .map(|bytes| linear(u16::from_be_bytes([bytes[0], bytes[1]])))
+        .collect();
+    let pixels = levels.chunks_exact(3);
+    let shown = pixels.map(|rgb| 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]);
+    let light =
+        exr::prelude::read_first_flat_layer_from_file(place.path(&format!("a_{frame:04}.exr")));
+    let light = light.unwrap().layer_data;
+    let channel = light
+        .channel_data
+        .list
+        .iter()
+        .find(|channel| channel.name.eq("xyz.Y"));
+    let y = channel.unwrap().sample_data.values_as_f32().map(f64::from);
+    let count = f64::from(levels.len() as u32) / 3.0;
+    [shown.sum::<f64>() / count, 683.0 * y.sum::<f64>() / count]
+}
+
+#[test]
+fn a_pan_fire_is_metered_once_and_its_brightness_follows_its_light() {
+    let Some(folder) = shared() else { return };
+    let place = Place::new();
+    let folder = folder.join("data/panfire_seq");
+    // Linear and underexposed, so that nothing is clipped; the eye not adapted, so that luminance is kept. What takes long
+    // is left out.
+    let keys = "--frames 3-9 --size 120x90 --quality draft --set view.curve=linear --set view.exposure_ev=-5 \
+                --set view.adaptation=0 --set effects.scattering=off --set effects.refraction=off";
+    for output in ["a.png --bits 16 --stats s.json", "a.exr"] {
+        place.expect(
+            0,
+            &format!("render {} -o {output} {keys}", folder.display()),
+        );
+    }
+    let stats = stats(&place, "s.json");
+    let frames = stats["frames"].as_array().unwrap();
+    assert_eq!(frames.len(), 7);
+    let told = |frame: &Value| {
+        let scene = &frame["scene"];
+        [
+            &frame["exposure"]["multiplier"],
+            &frame["exposure"]["white_xyz"],
+            &frame["settings"],
+            &scene["volume"]["temperature"],
+            &scene["volume"]["soot"],
+            &scene["camera"],
+            &scene["effects"],
+        ]
+        .map(Value::clone)
+    };
+    for frame in frames {
+        assert_eq!(told(frame), told(&frames[0]), "frame {}", frame["frame"]);
+    }
+    let ratios: Vec<f64> = (3..=9)
+        .map(|frame| {
+            let [shown, light] = means(&place, frame);
+            shown / light
+        })
+        .collect();
+    for ratio in &ratios {
+        assert!((ratio / ratios[0] - 1.0).abs() < 0.01, "{ratios:?}");
+    }
+    // The same light makes another picture where each frame measures itself.
+    let lights: Vec<f64> = (3..=9).map(|frame| means(&place, frame)[1]).collect();
+    assert!((lights[6] / lights[0] - 1.0).abs() > 0.02, "{lights:?}");
+}

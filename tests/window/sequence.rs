@@ -1,0 +1,194 @@
+//! Frames of a sequence in the window: which is on show, what is held, how they play.
+
+use std::collections::BTreeSet;
+
+use egui::Key;
+
+use super::*;
+use crate::common::write_vdb;
+
+/// A folder with frames 1, 2, 4, 5 and 6 of a fire in solver heat, each hotter than the one before; 5 is bad.
+fn frames() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (number, heat) in [(1, 1.0), (2, 1.2), (4, 1.4), (6, 1.5)] {
+        let path = folder.path().join(format!("fire_{number:02}.vdb"));
+        write_vdb(&path, &[("flame", 1.0), ("temperature", heat)]);
+    }
+    std::fs::write(folder.path().join("fire_05.vdb"), "no volume at all").expect("written");
+    folder
+}
+
+fn window_on(path: &Path) -> Harness<'static, App> {
+    let mut project = Project::default();
+    project.volume.path = vec![path.to_owned()];
+    let mut harness = window_of(project, [900.0, 420.0]);
+    wait_until(&mut harness, |app| app.frame().is_some());
+    harness.run_steps(2);
+    harness
+}
+
+/// Draws frames until something is so.
+fn wait_until(harness: &mut Harness<'_, App>, is_so: impl Fn(&App) -> bool) {
+    for _ in 0..6000 {
+        harness.run_steps(1);
+        if is_so(harness.state()) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("it was never so: frame {:?}", harness.state().frame());
+}
+
+fn press(harness: &mut Harness<'_, App>, label: &str) {
+    harness.get_by_label(label).click_accesskit();
+    harness.run_steps(2);
+    settle(harness);
+}
+
+fn peak_y(app: &App) -> f32 {
+    let pixels = app.picture().film().pixels().iter();
+    pixels.map(|pixel| pixel.xyz[1]).fold(0.0, f32::max)
+}
+
+#[test]
+fn a_step_holds_what_would_flicker_and_passes_a_bad_frame_over() {
+    let folder = frames();
+    let mut harness = window_on(&folder.path().join("fire_02.vdb"));
+    harness.get_by_label_contains("frame 02 of 01 to 06");
+    let of = |app: &App| {
+        let job = app.job().expect("a job");
+        (job.flame.maps.clone(), job.camera, app.view())
+    };
+    let before = of(harness.state());
+    let light = peak_y(harness.state());
+    press(&mut harness, "Next frame");
+    // There is no frame 3.
+    assert_eq!(harness.state().frame(), Some(4));
+    harness.get_by_label_contains("frame 04 of 01 to 06");
+    harness.get_by_label("fire_04.vdb");
+    assert!(of(harness.state()) == before, "something is not held");
+    // What is hotter is brighter: its own peak would have made it as bright.
+    assert!(peak_y(harness.state()) > 1.2 * light);
+
+    press(&mut harness, "Next frame");
+    assert_eq!(harness.state().frame(), Some(4), "frame 5 is bad");
+    let notice = harness.state().notice().expect("a notice").to_owned();
+    assert!(
+        notice.contains("frame 5 is passed over") && notice.contains("fire_05.vdb"),
+        "{notice}"
+    );
+    harness.get_by_label("frame 5 is bad");
+    press(&mut harness, "Next frame");
+    assert_eq!(harness.state().frame(), Some(6));
+    press(&mut harness, "Previous frame");
+    assert_eq!(harness.state().frame(), Some(4));
+    assert!(of(harness.state()) == before);
+
+    // Frames are no steps of undo: one takes back that things are held, and the frame stays.
+    harness.state_mut().document_mut().undo();
+    harness.run_steps(2);
+    settle(&mut harness);
+    assert_eq!(
+        harness.state().document().project.volume.temperature.scale,
+        None
+    );
+    assert!(!harness.state().document().can_undo());
+    assert_eq!(harness.state().frame(), Some(4));
+    harness.get_by_label("fire_04.vdb");
+}
+
+#[test]
+fn frames_play_in_a_loop_and_none_is_black_on_the_way() {
+    let folder = frames();
+    let mut harness = window_on(&folder.path().join("fire_01.vdb"));
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Frames per second")
+        .set_value_accesskit(200.0);
+    harness.run_steps(2);
+    harness.get_by_label("Play").click_accesskit();
+    let (mut seen, mut rounds, mut last) = (BTreeSet::new(), 0, 0);
+    for _ in 0..6000 {
+        harness.run_steps(1);
+        let app = harness.state();
+        assert!(peak_y(app) > 0.0, "a black picture between two frames");
+        assert!(app.plays(), "a bad frame ended the play");
+        let frame = app.frame().expect("a frame");
+        rounds += u32::from(frame < last);
+        last = frame;
+        seen.insert(frame);
+        if rounds == 2 {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert_eq!(
+        seen.into_iter().collect::<Vec<_>>(),
+        [1, 2, 4, 6],
+        "{rounds} rounds"
+    );
+    harness.get_by_label("frame 5 is bad");
+    press(&mut harness, "Pause");
+    assert!(!harness.state().plays());
+    let frame = harness.state().frame();
+    harness.run_steps(20);
+    assert_eq!(harness.state().frame(), frame);
+
+    // Without a loop it ends at the last.
+    harness.get_by_label("Loop").click_accesskit();
+    harness.run_steps(2);
+    harness.get_by_label("Play").click_accesskit();
+    harness.run_steps(2);
+    wait_until(&mut harness, |app| !app.plays());
+    settle(&mut harness);
+    assert_eq!(harness.state().frame(), Some(6));
+}
+
+#[test]
+fn a_folder_opens_its_first_frame_and_a_hand_scrubs() {
+    let folder = frames();
+    let mut harness = window_of(Project::default(), [900.0, 420.0]);
+    assert!(
+        harness.query_by_label("Play").is_none(),
+        "the built-in flame has no frames"
+    );
+    drop_files(&mut harness, &[folder.path()]);
+    wait_until(&mut harness, |app| app.frame() == Some(1));
+    harness.run_steps(2);
+    settle(&mut harness);
+    harness.get_by_label("fire_01.vdb");
+    set_slider(&mut harness, "Frame", 5.9);
+    settle(&mut harness);
+    assert_eq!(harness.state().frame(), Some(6));
+    // What is not there gives the nearest.
+    set_slider(&mut harness, "Frame", 3.0);
+    settle(&mut harness);
+    assert_eq!(harness.state().frame(), Some(2));
+
+    let set = |harness: &mut Harness<'_, App>, label: &str, value: f64| {
+        harness
+            .get_by_role_and_label(Role::SpinButton, label)
+            .set_value_accesskit(value);
+        harness.run_steps(3);
+    };
+    set(&mut harness, "In", 2.0);
+    set(&mut harness, "Out", 4.0);
+    for (key, frame) in [
+        (Key::Period, 4),
+        (Key::Period, 2),
+        (Key::Comma, 4),
+        (Key::Comma, 2),
+    ] {
+        harness.key_press(key);
+        harness.run_steps(2);
+        settle(&mut harness);
+        assert_eq!(harness.state().frame(), Some(frame));
+    }
+
+    // Another file has a strip of its own, or none.
+    let alone = tempfile::tempdir().expect("a temporary folder");
+    let (soot, _) = soot_and_heat(alone.path());
+    drop_files(&mut harness, &[&soot]);
+    settle(&mut harness);
+    harness.get_by_label("soot.txt");
+    assert!(harness.query_by_label("Play").is_none());
+}
