@@ -11,7 +11,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sootlight::project::PRESETS;
+use sootlight::project::{PRESETS, THUMBNAIL};
 
 use super::common;
 
@@ -32,15 +32,18 @@ fn cleared(name: &str) -> PathBuf {
 
 /// Renders a still in the given folder.
 fn still(folder: &Path, name: &str, arguments: &[&str]) {
-    let output = cleared(name);
+    still_at(folder, &cleared(name), arguments);
+}
+
+fn still_at(folder: &Path, output: &Path, arguments: &[&str]) {
     let status = Command::new(PROGRAM)
         .current_dir(folder)
         .args(["render", "--quality", "final", "-o"])
-        .arg(&output)
+        .arg(output)
         .args(arguments)
         .status()
         .unwrap();
-    assert!(status.success() && output.is_file(), "{name}");
+    assert!(status.success() && output.is_file(), "{}", output.display());
 }
 
 /// Opens the window on a virtual display and takes its picture after it has come to rest.
@@ -97,6 +100,18 @@ fn of_the_presets() {
     for preset in PRESETS.iter().filter(|preset| preset.name != "torch") {
         let name = format!("{}.png", preset.name.replace('-', "_"));
         still(here, &name, &["--preset", preset.name, "--size", "600x900"]);
+    }
+    // Their pictures in the menu.
+    let presets = here.join("assets/scenes/presets");
+    let [width, height] = THUMBNAIL;
+    let size = format!("{width}x{height}");
+    for preset in PRESETS {
+        let arguments = ["--preset", preset.name, "--size", &size];
+        still_at(
+            here,
+            &presets.join(format!("{}.png", preset.name)),
+            &arguments,
+        );
     }
     // The spectrum of the blue cone, under the pointer.
     let hands = "xdotool search --name Sootlight windowfocus; sleep 0.3; xdotool key s; sleep 0.5; \

@@ -9,6 +9,7 @@ mod fire;
 mod opening;
 mod plots;
 mod real;
+mod scene_file;
 mod sequence;
 mod session;
 mod shader;

@@ -3,6 +3,7 @@
 //! The newest request that can be read wins: what an older one brings waits until no newer one is left, and is
 //! dropped once a newer one has come. What no longer counts is stopped. A failure is a sentence, never a panic.
 
+mod asked;
 mod request;
 
 use std::panic::{AssertUnwindSafe, UnwindSafe, catch_unwind};
@@ -11,6 +12,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
+pub(super) use asked::Asked;
 use request::load;
 pub(super) use request::{Outcome, Request};
 

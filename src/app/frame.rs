@@ -33,11 +33,12 @@ impl eframe::App for App {
         self.receive();
         self.read_what_is_lacking();
         self.exporter.poll();
+        self.receive_saved();
         if self.lost.words().is_some() && self.closing != Closing::Now {
             self.closing = Closing::AfterExport;
         }
         // A hidden window can be closed as well.
-        self.guard_the_export(ctx);
+        self.guard_what_would_be_lost(ctx);
         self.drain();
         if let Some(wait) = self.play() {
             ctx.request_repaint_after(wait);
@@ -131,6 +132,9 @@ impl eframe::App for App {
             .show(&ctx, &self.engine, &about, &shown.place, &mut commands);
         panels::overlay(ui, self, canvas, &mut commands);
         let size = self.document.fixed_size.unwrap_or(shown.size);
+        let (saved, writes) = (self.scene_file.path(), self.scene_file.is_writing());
+        self.panels.save.show(&ctx, saved, writes, &mut commands);
+        panels::help::show(&ctx, &mut self.panels.shows_help);
         self.panels.export.show(
             &ctx,
             &self.document,
@@ -147,7 +151,7 @@ impl eframe::App for App {
         }
         self.document
             .remember(before, hands::is_held(&ctx) || shown.scrolling);
-        self.obey(commands);
+        self.obey(&ctx, commands);
         self.read_what_is_lacking();
         self.follow();
     }

@@ -9,21 +9,29 @@ use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, ViewportCommand};
 use super::files::{Request, paths_of};
 use super::maps::Map;
 use super::panels::Command;
+use super::scene_file::is_settings;
 use super::snapshots::{MOST, Way};
 use super::timeline::Step;
 use super::{App, Closing};
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
-const SHORTCUTS: [(Modifiers, Key, Command); 13] = [
+const SHORTCUTS: [(Modifiers, Key, Command); 16] = [
     (
         Modifiers::COMMAND.plus(Modifiers::SHIFT),
         Key::Z,
         Command::Redo,
     ),
+    (
+        Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        Key::S,
+        Command::SaveAs,
+    ),
+    (Modifiers::COMMAND, Key::S, Command::Save),
     (Modifiers::COMMAND, Key::Z, Command::Undo),
     (Modifiers::COMMAND, Key::Y, Command::Redo),
     (Modifiers::COMMAND, Key::O, Command::Ask),
     (Modifiers::COMMAND, Key::E, Command::OpenExport),
+    (Modifiers::NONE, Key::F1, Command::ToggleHelp),
     (Modifiers::NONE, Key::N, Command::TogglePanel),
     (Modifiers::NONE, Key::S, Command::ToggleSpectrum),
     (Modifiers::NONE, Key::C, Command::ToggleAccuracy),
@@ -36,13 +44,15 @@ const SHORTCUTS: [(Modifiers, Key, Command); 13] = [
 
 impl App {
     /// Does what panels and keys asked for.
-    pub(super) fn obey(&mut self, commands: Vec<Command>) {
+    pub(super) fn obey(&mut self, ctx: &Context, commands: Vec<Command>) {
         for command in commands {
             match command {
                 Command::Ask => self.loader.ask(),
                 Command::Open(paths) => self.open(paths),
                 Command::BuiltIn(flame) => self.begin(Request::OtherBuiltIn(flame, None)),
                 Command::Preset(preset) => self.take(preset),
+                Command::BurnAs(path) => self.burn_as(&path),
+                Command::KeepPreset(path) => self.keep_preset(&path),
                 Command::CancelLoading => self.cancel_loading(),
                 Command::Undo => self.document.undo(),
                 Command::Redo => self.document.redo(),
@@ -108,7 +118,24 @@ impl App {
                 Command::CancelExport => self.exporter.cancel(),
                 Command::CloseAfterExport => self.closing = Closing::AfterExport,
                 Command::CloseNow => self.closing = Closing::Now,
-                Command::KeepOpen => self.closing = Closing::No,
+                Command::KeepOpen => self.stay_open(),
+                Command::Save => self.save(ctx),
+                Command::SaveAs => {
+                    let saved = self.scene_file.path();
+                    self.panels.save.open(&self.document, saved);
+                }
+                Command::SaveTo(path) => self.save_to(path, ctx),
+                Command::CloseSave => {
+                    self.panels.save.close();
+                    self.stay_open();
+                }
+                Command::CloseAfterSave => {
+                    self.closing = Closing::AfterSave;
+                    self.save(ctx);
+                }
+                Command::CopySettings => ctx.copy_text(self.document.project.to_toml()),
+                Command::PasteSettings => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
+                Command::ToggleHelp => self.panels.shows_help = !self.panels.shows_help,
                 Command::ForgetExport => self.exporter.dismiss(),
             }
         }
@@ -149,35 +176,62 @@ impl App {
         }
     }
 
-    /// A window that exports is not closed without a word: what was waited for would be lost.
-    pub(super) fn guard_the_export(&mut self, ctx: &Context) {
+    /// A window that exports, or whose settings are in no file, is not closed without a word: they would be lost.
+    pub(super) fn guard_what_would_be_lost(&mut self, ctx: &Context) {
         let exports = self.exporter.running().is_some();
+        let is_asked = || ctx.input(|input| input.viewport().close_requested());
         match self.closing {
             Closing::Now => ctx.send_viewport_cmd(ViewportCommand::Close),
             Closing::AfterExport if !exports => ctx.send_viewport_cmd(ViewportCommand::Close),
-            _ if exports && ctx.input(|input| input.viewport().close_requested()) => {
+            _ if exports && is_asked() => {
                 ctx.send_viewport_cmd(ViewportCommand::CancelClose);
                 self.closing = Closing::Asked;
             }
             Closing::Asked if !exports => self.closing = Closing::No,
+            Closing::No | Closing::AskedUnsaved | Closing::AfterSave
+                if self.is_unsaved() && is_asked() =>
+            {
+                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+                self.closing = Closing::AskedUnsaved;
+            }
             _ => {}
         }
     }
 
-    /// Files let go over the window, and a path pasted where nothing else takes it.
+    /// The window closes, if that waited for what was set to be saved.
+    pub(super) fn close_once_saved(&mut self) {
+        if self.closing == Closing::AfterSave {
+            self.closing = Closing::Now;
+        }
+    }
+
+    /// What was to be closed stays open.
+    pub(super) fn stay_open(&mut self) {
+        self.closing = Closing::No;
+    }
+
+    /// Saves what is set where it was saved before, or asks where.
+    fn save(&mut self, ctx: &Context) {
+        match self.scene_file.path().map(std::path::Path::to_owned) {
+            Some(path) => self.save_to(path, ctx),
+            None => self.panels.save.open(&self.document, None),
+        }
+    }
+
+    /// Files let go over the window, and paths or settings pasted where nothing else takes them.
     pub(super) fn take_drops(&mut self, ctx: &Context) {
         let mut paths: Vec<PathBuf> = ctx.input(|input| {
             let dropped = input.raw.dropped_files.iter();
             dropped.map(|file| file.path().to_owned()).collect()
         });
         if paths.is_empty() && !ctx.text_edit_focused() {
-            paths = ctx.input(|input| {
-                let pasted = input.events.iter().filter_map(|event| match event {
-                    Event::Paste(text) => Some(paths_of(text)),
-                    _ => None,
-                });
-                pasted.flatten().collect()
-            });
+            for text in pasted(ctx) {
+                if is_settings(&text) {
+                    self.paste_settings(&text);
+                } else {
+                    paths.extend(paths_of(&text));
+                }
+            }
         }
         self.open(paths);
     }
@@ -204,6 +258,11 @@ impl App {
         if self.timeline.is_open() && !self.panels.export.is_open() {
             commands.extend(self.frame_keys(ctx));
         }
+        // With Shift, for without it what is selected in the panel is copied.
+        let copies = |event: &Event| matches!(event, Event::Copy);
+        if ctx.input(|input| input.modifiers.shift && input.events.iter().any(copies)) {
+            commands.push(Command::CopySettings);
+        }
         // A menu that is open is what is meant: it closes itself.
         if egui::Popup::is_any_open(ctx) {
             return commands;
@@ -212,7 +271,13 @@ impl App {
             commands.push(Command::CancelLoading);
         } else if pressed(Modifiers::NONE, Key::Escape) {
             // What was opened last is most likely meant; the export stands in front.
-            let _ = self.panels.export.close()
+            let saves = self.panels.save.close();
+            if saves {
+                self.stay_open();
+            }
+            let _ = saves
+                || std::mem::take(&mut self.panels.shows_help)
+                || self.panels.export.close()
                 || self.plots.close()
                 || self.maps.close()
                 || self.snapshots.close();
@@ -249,6 +314,17 @@ impl App {
         }
         steps.into_iter().map(Command::Step).collect()
     }
+}
+
+/// Texts that were pasted in this frame.
+fn pasted(ctx: &Context) -> Vec<String> {
+    ctx.input(|input| {
+        let pasted = input.events.iter().filter_map(|event| match event {
+            Event::Paste(text) => Some(text.clone()),
+            _ => None,
+        });
+        pasted.collect()
+    })
 }
 
 /// Whether what changes belongs to the same step of undo: something is held, or was clicked so shortly before that a

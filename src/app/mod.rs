@@ -22,6 +22,7 @@ mod panels;
 mod pictures;
 mod plots;
 mod recent;
+mod scene_file;
 mod snapshots;
 mod start;
 mod theme;
@@ -47,6 +48,7 @@ use self::panels::Panels;
 use self::pictures::Submitted;
 use self::plots::Plots;
 use self::recent::Recent;
+use self::scene_file::SceneFile;
 use self::snapshots::Snapshots;
 use self::timeline::Timeline;
 use crate::colour::display::View;
@@ -60,6 +62,8 @@ const FRAME: Duration = Duration::from_millis(30);
 
 /// The program's name to the desktop, and of its folder of data.
 const APP_ID: &str = "sootlight";
+/// Where in that folder a person's own presets lie.
+const PRESETS: &str = "presets";
 /// Where in that folder it is kept what is open.
 const SESSIONS: &str = "sessions";
 
@@ -84,18 +88,19 @@ pub struct App {
     panels: Panels,
     plots: Plots,
     recent: Recent,
+    scene_file: SceneFile,
     autosave: Autosave,
     lost: Lost,
     /// Whether brightness and white are to be measured again, on the next picture.
     expose_anew: bool,
     /// What went wrong last, until it is dismissed.
     notice: Option<String>,
-    /// Whether somebody wants to close the window while it exports.
+    /// Whether somebody wants to close the window while it exports, or with settings that are in no file.
     closing: Closing,
     title: String,
 }
 
-/// What becomes of a window that is to be closed while it exports.
+/// What becomes of a window that is to be closed while something would be lost with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Closing {
     /// Nobody asked.
@@ -103,6 +108,10 @@ enum Closing {
     No,
     /// It was asked for, and the answer is awaited.
     Asked,
+    /// It was asked for while what is set was in no file, and the answer is awaited.
+    AskedUnsaved,
+    /// It closes once what is set was saved.
+    AfterSave,
     /// It closes once the export has ended.
     AfterExport,
     /// It closes, whatever runs.
@@ -139,8 +148,11 @@ impl App {
         loader.begin(first, project.volume.limits());
         // What is remembered between windows stands beside it; a window that remembers nothing keeps nothing.
         let folder = creation.storage.and_then(|_| eframe::storage_dir(APP_ID));
+        let mut panels = Panels::default();
+        panels.presets.folder = folder.as_ref().map(|folder| folder.join(PRESETS));
         let autosave = folder.map(|folder| Autosave::in_folder(&folder.join(SESSIONS), &project));
         let lost = Lost::default();
+        let scene_file = SceneFile::new(&project);
         if let Some(state) = &creation.wgpu_render_state {
             lost.watch(&state.device, ctx);
         }
@@ -161,9 +173,10 @@ impl App {
             loader,
             exporter,
             timeline,
-            panels: Panels::default(),
+            panels,
             plots: Plots::default(),
             recent: Recent::load(creation.storage),
+            scene_file,
             expose_anew: false,
             notice: None,
             closing: Closing::default(),
@@ -244,6 +257,11 @@ impl App {
         self.autosave = Autosave::in_folder(folder, &self.document.project);
     }
 
+    /// Keeps a person's own presets in this folder from here on, as windows of the desktop do in their data folder.
+    pub fn keep_presets_in(&mut self, folder: &Path) {
+        self.panels.presets.folder = Some(folder.to_owned());
+    }
+
     /// Moves the camera so that all of the flame is seen, from the side that it is seen from now.
     pub fn frame_all(&mut self) {
         self.document.frame_all();
@@ -273,7 +291,14 @@ impl App {
     }
 
     fn retitle(&mut self, ctx: &egui::Context) {
-        let title = format!("Sootlight — {}", self.document.title());
+        let scene = self.scene_file.path().and_then(Path::file_name);
+        let scene = scene.map(|name| format!("{} — ", name.to_string_lossy()));
+        let unsaved = if self.is_unsaved() { " *" } else { "" };
+        let title = format!(
+            "Sootlight — {}{}{unsaved}",
+            scene.unwrap_or_default(),
+            self.document.title()
+        );
         if title != self.title {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.title = title;

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::files::{Outcome, Request};
+use super::scene_file::{is_scene, with_cause};
 use super::{App, Document};
-use crate::project::{BackdropKind, CameraSettings, Preset, ProjectError};
+use crate::project::{BackdropKind, CameraSettings, Preset, Project, ProjectError};
 use crate::volume::{BuiltIn, Volume};
 
 /// Whether a file is a picture by its name: it goes behind the fire.
@@ -30,6 +31,7 @@ impl App {
         }
         let request = match (self.document.wants_a_partner(), paths.as_slice()) {
             (_, []) => return,
+            (_, [path]) if is_scene(path) => Request::Scene(path.clone()),
             // A folder is a sequence, and never a missing field.
             (Some(open), [path]) if !path.is_dir() => {
                 Request::Partner(Arc::clone(open), path.clone())
@@ -78,6 +80,30 @@ impl App {
         }
     }
 
+    /// Lets the fire burn as in a scene file, which may be a preset that somebody kept.
+    pub(super) fn burn_as(&mut self, path: &Path) {
+        match Project::read(path) {
+            Ok(scene) => {
+                self.document
+                    .change(|document| document.project.burn_as(scene));
+                self.expose_anew = true;
+            }
+            Err(error) => self.notice = Some(with_cause(&error)),
+        }
+    }
+
+    /// Keeps what burns as a preset in a file, wholly or not at all.
+    pub(super) fn keep_preset(&mut self, path: &Path) {
+        let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+        let kept = made.map_err(|error| error.to_string()).and_then(|()| {
+            let scene = self.document.project.what_burns();
+            scene.write(path).map_err(|error| with_cause(&error))
+        });
+        if let Err(words) = kept {
+            self.notice = Some(format!("the preset was not kept: {words}"));
+        }
+    }
+
     /// Begins to open what was open in a window that did not end by itself. What is open stays until that is read.
     pub(super) fn restore(&mut self) {
         if let Some(project) = self.autosave.left().cloned() {
@@ -92,20 +118,33 @@ impl App {
     pub(super) fn receive(&mut self) {
         while let Some(outcome) = self.loader.poll() {
             match outcome {
-                Outcome::Shown(volume) => self.show(volume, Document::open),
+                Outcome::Shown(volume) => {
+                    if self.show(volume, Document::open) {
+                        self.begin_scene();
+                    }
+                }
                 Outcome::Restored(volume, project) => {
-                    self.show(volume, |document, volume| {
-                        document.replace_and(volume, |changed| changed.clone_from(&project))
-                    });
+                    self.show_with(volume, &project);
                     let was_left = self.autosave.left() == Some(&*project);
                     if was_left && self.document.project == *project {
                         self.autosave.take_over(&project);
                     }
                 }
-                Outcome::Replaced(volume) => self.show(volume, Document::replace),
-                Outcome::Burning(volume, preset) => self.show(volume, |document, volume| {
-                    document.replace_and(volume, |project| preset.apply(project))
-                }),
+                Outcome::Opened(volume, project, path) => {
+                    if self.show_with(volume, &project) {
+                        self.is_of(path, &project);
+                    }
+                }
+                Outcome::Replaced(volume) => {
+                    if self.show(volume, Document::replace) {
+                        self.begin_scene();
+                    }
+                }
+                Outcome::Burning(volume, preset) => {
+                    self.show(volume, |document, volume| {
+                        document.replace_and(volume, |project| preset.apply(project))
+                    });
+                }
                 Outcome::Completed { open, both } => {
                     let now = self.document.volume();
                     let same = now.is_some_and(|now| Arc::ptr_eq(now, &open));
@@ -135,12 +174,19 @@ impl App {
         }
     }
 
-    /// Shows a volume in one of the document's ways, or says why not.
+    /// Shows a volume as a project sets it, or says why not.
+    fn show_with(&mut self, volume: Arc<Volume>, project: &Project) -> bool {
+        self.show(volume, |document, volume| {
+            document.replace_and(volume, |changed| changed.clone_from(project))
+        })
+    }
+
+    /// Shows a volume in one of the document's ways, or says why not. Whether it is shown.
     fn show(
         &mut self,
         volume: Arc<Volume>,
         way: impl FnOnce(&mut Document, Arc<Volume>) -> Result<(), ProjectError>,
-    ) {
+    ) -> bool {
         let name = |path: &PathBuf| path.display().to_string();
         let names = volume.sources.iter().map(name).collect::<Vec<_>>();
         match way(&mut self.document, volume) {
@@ -152,8 +198,12 @@ impl App {
                 if let Some(volume) = self.document.volume() {
                     self.recent.add(&volume.sources);
                 }
+                true
             }
-            Err(error) => self.refuse(&format!("{}: {error}", names.join(", ")), true),
+            Err(error) => {
+                self.refuse(&format!("{}: {error}", names.join(", ")), true);
+                false
+            }
         }
     }
 

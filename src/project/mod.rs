@@ -13,6 +13,7 @@ pub mod file;
 mod idle;
 pub mod job;
 pub mod one_or_many;
+mod pasted;
 mod presets;
 pub mod ranges;
 pub mod set;
@@ -25,7 +26,7 @@ pub use darkness::{Darkness, Mend};
 pub use error::ProjectError;
 pub use idle::{Control, why_idle};
 pub use job::Job;
-pub use presets::{PRESETS, Preset};
+pub use presets::{PRESETS, Preset, THUMBNAIL};
 pub use settings::{
     AirSettings, BackdropKind, CameraSettings, FieldSettings, FuelSettings, Project, Quality,
     RenderSettings, Saturation, SmokeSettings, SootSettings, StageSettings, Up, ViewSettings,

@@ -367,13 +367,17 @@ fn the_keyboard_opens_it_and_a_small_window_holds_it() {
 }
 
 /// Asks the window to close, as its frame's button does; whether it does close.
-fn ask_to_close(harness: &mut Harness<'_, App>) -> bool {
+pub(super) fn ask_to_close(harness: &mut Harness<'_, App>) -> bool {
     let root = egui::ViewportId::ROOT;
     let viewport = harness.input_mut().viewports.entry(root).or_default();
     viewport.events.push(egui::ViewportEvent::Close);
     harness.run_steps(1);
     let commands = &harness.output().viewport_output[&root].commands;
-    !commands.contains(&egui::ViewportCommand::CancelClose)
+    let closes = !commands.contains(&egui::ViewportCommand::CancelClose);
+    // It was asked once, and not again in every frame from here on.
+    let viewport = harness.input_mut().viewports.entry(root).or_default();
+    viewport.events.clear();
+    closes
 }
 
 #[test]

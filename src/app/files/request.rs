@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::app::scene_file::with_cause;
 use crate::project::{Preset, Project};
 use crate::sequence::{Sequence, SequenceError};
 use crate::volume::{self, BuiltIn, Limits, Volume, VolumeError, Wanted, Watch};
@@ -19,6 +20,8 @@ pub(in crate::app) enum Request {
     Project(Vec<PathBuf>, Wanted),
     /// What a project that was kept names, to be shown with that project's settings.
     Session(Arc<Project>),
+    /// A scene file: its volume, to be shown with its settings.
+    Scene(PathBuf),
     /// These files as one volume, instead of what is open.
     Files(Vec<PathBuf>, Wanted),
     /// The open volume's files once more, with grids that were left unread.
@@ -36,6 +39,8 @@ pub(in crate::app) enum Outcome {
     Shown(Arc<Volume>),
     /// A volume with the project that was kept of it.
     Restored(Arc<Volume>, Arc<Project>),
+    /// The same from a scene file.
+    Opened(Arc<Volume>, Arc<Project>, PathBuf),
     /// A volume that takes the place of the open one.
     Replaced(Arc<Volume>),
     /// One that does so and burns as in a preset.
@@ -73,6 +78,7 @@ impl Outcome {
         match self {
             Self::Shown(volume)
             | Self::Restored(volume, _)
+            | Self::Opened(volume, ..)
             | Self::Replaced(volume)
             | Self::Burning(volume, _)
             | Self::Completed { both: volume, .. }
@@ -98,7 +104,7 @@ impl Request {
             }
             Self::Session(project) => names(&project.volume.path),
             Self::Lacking(open, _) => names(&open.sources),
-            Self::Partner(_, path) => path.display().to_string(),
+            Self::Partner(_, path) | Self::Scene(path) => path.display().to_string(),
         }
     }
 }
@@ -130,6 +136,7 @@ pub(super) fn load(mut request: Request, limits: &Limits, watch: &Watch) -> Outc
             };
             volume.map(|v| Outcome::Restored(v.into(), Arc::clone(project)))
         }
+        Request::Scene(path) => return open_scene(path.clone(), watch),
         Request::Files(paths, wanted) => open(paths, wanted).map(|v| Outcome::Replaced(v.into())),
         Request::Lacking(before, wanted) => {
             open(&before.sources, wanted).map(|v| Outcome::Filled {
@@ -148,6 +155,28 @@ pub(super) fn load(mut request: Request, limits: &Limits, watch: &Watch) -> Outc
         grid.bulk();
     }
     outcome
+}
+
+/// A scene file's volume under the limits that it sets.
+fn open_scene(path: PathBuf, watch: &Watch) -> Outcome {
+    let project = match Project::read(&path) {
+        Ok(project) => Arc::new(project),
+        Err(error) => {
+            return Outcome::Failed {
+                words: with_cause(&error),
+                request: Request::Scene(path),
+            };
+        }
+    };
+    let limits = project.volume.limits();
+    match load(Request::Session(project), &limits, watch) {
+        Outcome::Restored(volume, project) => Outcome::Opened(volume, project, path),
+        Outcome::Failed { words, .. } => Outcome::Failed {
+            words: format!("{}: {words}", path.display()),
+            request: Request::Scene(path),
+        },
+        other => other,
+    }
 }
 
 /// Names the first frame of the only sequence in a folder in the place of that folder.

@@ -47,6 +47,14 @@ impl FilePanel {
             if export.clicked() {
                 commands.push(Command::OpenExport);
             }
+            let save = ui.button("Save").on_hover_text(
+                "Save all that is set as a scene file (Ctrl+S; with Shift under another name). It names the volume, and is opened \
+                 as a volume is.",
+            );
+            if save.clicked() {
+                commands.push(Command::Save);
+            }
+            settings(ui, commands);
             let tip = "Take the last change back (Ctrl+Z).";
             if button(ui, document.can_undo(), "Undo", tip) {
                 commands.push(Command::Undo);
@@ -71,6 +79,37 @@ impl FilePanel {
             ui.label(RichText::new(words).color(WARNING));
         }
     }
+}
+
+/// All that is set, as text, to another window and back.
+fn settings(ui: &mut Ui, commands: &mut Vec<Command>) {
+    let menu = ui.menu_button("Settings", |ui| {
+        for (label, tip, command) in [
+            (
+                "Copy",
+                "Put all that is set on the clipboard as text, the scene file's (Ctrl+Shift+C).",
+                Command::CopySettings,
+            ),
+            (
+                "Paste",
+                "Set what is on the clipboard (Ctrl+V). The open fire stays; its mapping and the camera change only if the \
+                 settings were copied from this fire.",
+                Command::PasteSettings,
+            ),
+            (
+                "Save as…",
+                "Save the scene under another name (Ctrl+Shift+S).",
+                Command::SaveAs,
+            ),
+            ("Keys and hands", "What keys and hands do (F1).", Command::ToggleHelp),
+        ] {
+            if ui.button(label).on_hover_text(tip).clicked() {
+                commands.push(command);
+            }
+        }
+    });
+    menu.response
+        .on_hover_text("Copy all that is set, paste it, save it; and what the keys do.");
 }
 
 /// What was open before, and the flames that need no file.

@@ -4,6 +4,7 @@ mod glow;
 
 use egui::Ui;
 
+use super::PresetsMenu;
 use super::knob::{Choice, Knob, name, note};
 use super::{Command, Known, section, short, unit};
 use crate::physics::constants::METRES_PER_NM;
@@ -11,7 +12,7 @@ use crate::physics::soot::{
     Hold, LARGEST_AGGREGATE_RADIUS_NM, REFERENCE_RADIUS_NM, SMALLEST_RADIUS_NM, SootModel,
     volume_fraction_factor,
 };
-use crate::project::{Control, Job, PRESETS, Project, SmokeSettings, SootSettings, ranges};
+use crate::project::{Control, Job, Project, SmokeSettings, SootSettings, ranges};
 use crate::scene::Fuel;
 
 /// What temperature offsets may be, K: more than any flame.
@@ -29,10 +30,11 @@ pub(super) fn show(
     ui: &mut Ui,
     project: &mut Project,
     known: Known<'_>,
+    menu: &mut PresetsMenu,
     commands: &mut Vec<Command>,
 ) {
     section(ui, "Fire", true, |ui| {
-        presets(ui, commands);
+        menu.show(ui, commands);
         let job = known.job;
         let idle = |control| known.idle(control);
         fuel(
@@ -117,23 +119,6 @@ pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, known: Known<'_
             idle: known.idle(Control::SmokeAlbedo),
         }
         .show(ui, &mut project.smoke.albedo);
-    });
-}
-
-/// Flames to start from.
-fn presets(ui: &mut Ui, commands: &mut Vec<Command>) {
-    ui.horizontal(|ui| {
-        let tip = "Sets what burns: fuel, salt, glow and soot. A file that is open keeps its shape and its mapping; one of \
-                   the program's own flames gives way to the one that shows the preset best.";
-        name(ui, "Burn as", tip);
-        let menu = ui.menu_button("a preset…", |ui| {
-            for preset in PRESETS {
-                if ui.button(preset.label).on_hover_text(preset.words).clicked() {
-                    commands.push(Command::Preset(preset));
-                }
-            }
-        });
-        menu.response.on_hover_text(tip);
     });
 }
 

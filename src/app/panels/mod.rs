@@ -8,10 +8,13 @@ mod effects;
 mod export;
 mod file;
 mod fire;
+pub(super) mod help;
 mod knob;
 mod legend;
 mod overlay;
+mod presets;
 mod quality;
+mod save;
 mod stage;
 mod status;
 mod unit;
@@ -23,6 +26,7 @@ use std::path::PathBuf;
 use egui::{CollapsingHeader, Frame, Panel, RichText, ScrollArea, Ui};
 
 pub(super) use overlay::overlay;
+use presets::PresetsMenu;
 pub(super) use status::status;
 
 use super::Document;
@@ -50,6 +54,10 @@ pub(super) enum Command {
     BuiltIn(BuiltIn),
     /// Burn as in a preset.
     Preset(&'static Preset),
+    /// Burn as in this scene file.
+    BurnAs(PathBuf),
+    /// Keep what burns as a preset in this file.
+    KeepPreset(PathBuf),
     /// Stop reading files.
     CancelLoading,
     /// Take the last change back.
@@ -104,6 +112,22 @@ pub(super) enum Command {
     CloseNow,
     /// Keep the window open.
     KeepOpen,
+    /// Save what is set where it was saved before, or ask where.
+    Save,
+    /// Ask where to save what is set.
+    SaveAs,
+    /// Save it there.
+    SaveTo(PathBuf),
+    /// Save nothing.
+    CloseSave,
+    /// Save what is set, then close the window.
+    CloseAfterSave,
+    /// Put all that is set on the clipboard, as a scene's text.
+    CopySettings,
+    /// Set what is on the clipboard.
+    PasteSettings,
+    /// Show what keys and hands do, or hide it.
+    ToggleHelp,
     /// Take away what is said of the last export.
     ForgetExport,
 }
@@ -116,12 +140,16 @@ const MOST_OF_WINDOW: f32 = 0.6;
 const MARGIN: i8 = 12;
 
 /// The panel at the right, with what is typed but not yet entered.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(super) struct Panels {
     pub(super) file: file::FilePanel,
     /// Whether the panel is out of sight, for the picture's sake.
     pub(super) hidden: bool,
     pub(super) export: export::ExportPanel,
+    pub(super) save: save::SavePanel,
+    pub(super) presets: PresetsMenu,
+    /// Whether the page of keys is open.
+    pub(super) shows_help: bool,
     stage: stage::StagePanel,
 }
 
@@ -194,7 +222,7 @@ impl Panels {
                             costs: &costs,
                             facts,
                         };
-                        fire::show(ui, project, known, commands);
+                        fire::show(ui, project, known, &mut self.presets, commands);
                         view::show(ui, project, automatic_half, commands);
                         compare::show(ui, beside.snapshots, commands);
                         quality::show(ui, project, known, beside, commands);

@@ -32,8 +32,28 @@ pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &m
         legend::show(ui, &legend, canvas);
     }
     notes(ui, app, canvas, commands);
-    if app.closing == Closing::Asked {
-        ask_before_closing(ui, commands);
+    match app.closing {
+        Closing::Asked => ask_before_closing(
+            ui,
+            "An export is running. If the window closes now, nothing will be written.",
+            [
+                ("Close when it is done", Command::CloseAfterExport),
+                ("Stop it and close", Command::CloseNow),
+                ("Go on working", Command::KeepOpen),
+            ],
+            commands,
+        ),
+        Closing::AskedUnsaved => ask_before_closing(
+            ui,
+            "What is set is in no file. If the window closes now, it is lost.",
+            [
+                ("Save and close", Command::CloseAfterSave),
+                ("Close without saving", Command::CloseNow),
+                ("Go on working", Command::KeepOpen),
+            ],
+            commands,
+        ),
+        Closing::No | Closing::AfterSave | Closing::AfterExport | Closing::Now => {}
     }
     let hovering = ui.input(|input| input.raw.hovered_files.clone());
     if !hovering.is_empty() {
@@ -50,18 +70,19 @@ pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &m
     }
 }
 
-/// An export runs and the window is to be closed.
-fn ask_before_closing(ui: &Ui, commands: &mut Vec<Command>) {
+/// The window is to be closed while something would be lost with it.
+fn ask_before_closing(
+    ui: &Ui,
+    words: &str,
+    answers: [(&str, Command); 3],
+    commands: &mut Vec<Command>,
+) {
     Modal::new(Id::unique("closing")).show(ui.ctx(), |ui| {
         ui.set_width(NOTE_WIDTH.min(0.8 * ui.ctx().content_rect().width()));
-        ui.label("An export is running. If the window closes now, nothing will be written.");
+        ui.label(words);
         ui.add_space(8.0);
         ui.horizontal_wrapped(|ui| {
-            for (label, command) in [
-                ("Close when it is done", Command::CloseAfterExport),
-                ("Stop it and close", Command::CloseNow),
-                ("Go on working", Command::KeepOpen),
-            ] {
+            for (label, command) in answers {
                 if ui.button(label).clicked() {
                     commands.push(command);
                 }

@@ -1,12 +1,11 @@
 //! Where an export goes: a path that is typed or chosen, whose ending is the format.
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 use egui::Context;
 
-use crate::app::files::{Answer, answer, paths_of};
+use crate::app::files::{Asked, paths_of};
 use crate::export::Format;
 use crate::export::png::Bits;
 
@@ -22,10 +21,7 @@ pub(super) struct Target {
     named_after: Option<Vec<PathBuf>>,
     /// Bits of a PNG: its ending does not tell them.
     bits: Bits,
-    /// The dialog that is open.
-    dialog: Option<Receiver<Answer<PathBuf>>>,
-    /// Whether this desktop turned out to have no dialog.
-    no_dialog: bool,
+    dialog: Asked,
     looked_up: Option<LookedUp>,
 }
 
@@ -84,7 +80,7 @@ impl Target {
     pub(super) fn problem(&self) -> Option<&'static str> {
         if self.format().is_none() {
             Some("The name must end with .png or .exr.")
-        } else if self.no_dialog {
+        } else if self.dialog.has_none() {
             Some("This desktop offers no file dialog: type a path.")
         } else {
             None
@@ -119,44 +115,16 @@ impl Target {
 
     /// Asks with the desktop's dialog, on a thread of its own.
     pub(super) fn ask(&mut self, ctx: &Context) {
-        if self.dialog.is_some() {
-            return;
-        }
-        let mut dialog = rfd::FileDialog::new()
+        let dialog = rfd::FileDialog::new()
             .set_title("Export the picture")
             .add_filter("Pictures", &["png", "exr"]);
-        if let Some(path) = self.path().and_then(|path| std::path::absolute(path).ok()) {
-            if let Some(folder) = path.parent() {
-                dialog = dialog.set_directory(folder);
-            }
-            dialog = dialog.set_file_name(name_of(&path));
-        }
-        let (sender, receiver) = channel();
-        let ctx = ctx.clone();
-        let spawned = std::thread::Builder::new()
-            .name("sootlight-dialog".into())
-            .spawn(move || {
-                // The window may be gone.
-                let _ = sender.send(answer(|| dialog.save_file()));
-                ctx.request_repaint();
-            });
-        match spawned {
-            Ok(_) => self.dialog = Some(receiver),
-            Err(_) => self.no_dialog = true,
-        }
+        let near = self.path().and_then(|path| std::path::absolute(path).ok());
+        self.dialog.ask(dialog, near.as_deref(), ctx);
     }
 
     /// Takes in what was chosen.
     pub(super) fn receive(&mut self) {
-        let Some(dialog) = &self.dialog else { return };
-        let answer = match dialog.try_recv() {
-            Ok(answer) => answer,
-            Err(TryRecvError::Empty) => return,
-            Err(TryRecvError::Disconnected) => Answer::NoDialog,
-        };
-        self.dialog = None;
-        self.no_dialog = answer == Answer::NoDialog;
-        if let Answer::Chosen(path) = answer {
+        if let Some(path) = self.dialog.answered() {
             // Some dialogs leave the ending to the program.
             let format = Format::of(&path).or(self.format());
             let path = format.map_or(path.clone(), |format| format.name_file(&path));
