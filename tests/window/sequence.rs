@@ -191,6 +191,12 @@ fn a_folder_opens_its_first_frame_and_a_hand_scrubs() {
     settle(&mut harness);
     harness.get_by_label("soot.txt");
     assert!(harness.query_by_label("Play").is_none());
+    // An undo brings back the frame, and its strip with it.
+    harness.state_mut().document_mut().undo();
+    wait_until(&mut harness, |app| app.frame() == Some(2));
+    harness.run_steps(2);
+    settle(&mut harness);
+    harness.get_by_label("Play");
 }
 
 /// Draws frames until there are these words.
@@ -257,4 +263,25 @@ fn a_range_is_exported_as_the_window_holds_it_and_goes_on_where_it_was_stopped()
     harness.get_by_label("Export range").click_accesskit();
     harness.run_steps(4);
     wait_for(&mut harness, "1 frames written, 3 kept");
+}
+
+#[test]
+fn a_frame_that_lacks_a_grid_is_shown_without_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let all = [("flame", 1.0), ("temperature", 1.0), ("density", 0.3)];
+    for (number, grids) in [(1, &all[..]), (2, &all[..2]), (3, &all[..])] {
+        write_vdb(&folder.path().join(format!("fire{number}.vdb")), grids);
+    }
+    let mut harness = window_on(&folder.path().join("fire1.vdb"));
+    let smoke = |app: &App| app.job().expect("a job").flame.maps.smoke.is_some();
+    assert!(smoke(harness.state()));
+    press(&mut harness, "Next frame");
+    assert_eq!(harness.state().frame(), Some(2));
+    assert!(!smoke(harness.state()) && harness.state().notice().is_none());
+    press(&mut harness, "Next frame");
+    assert_eq!(harness.state().frame(), Some(3));
+    assert!(
+        smoke(harness.state()),
+        "what one frame lacks is not lost to the others"
+    );
 }
