@@ -47,6 +47,8 @@
 //! * **feature**: a line, a band or a part of the radicals' light, carried at a wavelength of its own.
 //! * **film**: the only place where a spectrum becomes three numbers.
 //! * **error** of a picture: the 95th percentile of ΔE_ITP over lit pixels, against the study's reference.
+//! * **frame** of a sequence: the files of one number. What would differ from frame to frame, such as the mapping of a field
+//!   by the file's own peak, is **held**: set as keys of the scene file.
 //! * **flaw**: what could not be faithful, carried with the frame and told to the person.
 
 #[cfg(feature = "window")]

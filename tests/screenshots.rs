@@ -209,6 +209,19 @@ fn of_the_shared_volumes() {
 
 #[test]
 #[ignore = "writes screenshots/, by the command at the top of this file"]
+fn of_a_sequence() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    // Two steps on, and the first and the last frame that play.
+    let hands = "xdotool search --name Sootlight windowfocus; sleep 0.3; xdotool key period; sleep 2; \
+                 xdotool key period; sleep 20";
+    let frame = ["panfire_seq/panfire_0006.vdb"];
+    window_after(&shared.join("data"), "window_sequence.png", &frame, hands);
+}
+
+#[test]
+#[ignore = "writes screenshots/, by the command at the top of this file"]
 fn of_what_accuracy_costs() {
     let Some(shared) = common::shared() else {
         return;

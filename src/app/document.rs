@@ -61,6 +61,8 @@ pub struct Document {
 struct OpenVolume {
     volume: Arc<Volume>,
     recognised: Recognised,
+    /// Whether it is a frame that was stepped to: it may lack grids that others of its sequence have.
+    is_a_step: bool,
 }
 
 /// What an undo brings back. An opening is a step as well: a file dropped by mistake costs nothing.
@@ -192,7 +194,7 @@ impl Document {
         if asked == Some(&sized) {
             return self.job.as_ref();
         }
-        match sized.job_keeping(volume, &mut self.backdrops) {
+        match volumes::job_of(&sized, volume, open.is_a_step, &mut self.backdrops) {
             Ok(mut job) => {
                 if let Some((wished, numbers)) = self.chosen
                     && wished == job.accuracy

@@ -1,10 +1,11 @@
-//! A still, or a range of frames, written in the background while the window stays live: at most one at a time, on a named thread with a
-//! rayon pool of its own, beside the engine that goes on rendering what is on show.
+//! A still, or a range of frames, written in the background while the window stays live: at most one at a time, on a named
+//! thread with a rayon pool of its own, beside the engine that goes on rendering what is on show.
 //!
 //! An [`Order`] is plain data, taken when Export is pressed: what is edited or opened afterwards does not change it.
 
 mod order;
 mod range;
+mod still;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -14,16 +15,15 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use thiserror::Error;
-
-use crate::export::{ExportError, Still, check_target};
-use crate::project::ProjectError;
-use crate::range::{Gate, RangeError};
+use super::words::with_causes;
+use crate::export::ExportError;
+use crate::range::Gate;
 use crate::render::preparation::Preparation;
 use crate::render::{Cancel, Flaws};
-use crate::study;
 
 pub(super) use order::{Exactness, Order, Wish};
+use still::{NotExported, export, pool};
+
 pub(super) use range::{Counts, Playing, RangeOrder, numbered};
 
 /// Between two calls that wake the window, milliseconds.
@@ -104,21 +104,6 @@ struct Shared {
 }
 
 const MILLION: f64 = 1e6;
-
-/// Why nothing was written.
-#[derive(Debug, Error)]
-enum NotExported {
-    #[error(transparent)]
-    Export(#[from] ExportError),
-    #[error("this cannot be rendered as it is set: {0}")]
-    Project(#[from] ProjectError),
-    #[error("{0} is no file but a device or a pipe: choose another name")]
-    NoFile(String),
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    #[error("the threads to export with cannot be started: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-}
 
 impl Exporter {
     /// An exporter that calls `wake`, from any thread, when there is something new to draw.
@@ -315,66 +300,6 @@ impl Shared {
             }
         }
     }
-}
-
-/// The whole road, on the exporter's thread.
-fn export(
-    order: &Order,
-    cancel: &Cancel,
-    preparation: &Preparation,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Result<Flaws, NotExported> {
-    // Writing to a pipe would wait for its reader, and the window for that.
-    if std::fs::metadata(&order.path).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
-        return Err(NotExported::NoFile(order.path.display().to_string()));
-    }
-    let picture = order.project.stage.backdrop_picture.clone();
-    let sources: Vec<_> = order
-        .volume
-        .sources
-        .iter()
-        .cloned()
-        .chain(picture)
-        .collect();
-    check_target(&order.path, &sources)?;
-    let mut still = Still::new(&order.project, &order.volume, order.metering)?;
-    pool()?.install(|| {
-        let scene = still.scene();
-        if let Some(on_show) = order.effects {
-            still = still.showing(&scene, on_show);
-        }
-        let plan = still.plan(&scene).told_by(preparation);
-        let (settings, wished) = (still.job.settings, still.job.accuracy);
-        let aim = study::aim(&scene, plan, &settings, wished, None, cancel);
-        still.job.settings = aim.settings;
-        let frame = still.render_planned(&scene, &aim.plan, cancel, progress)?;
-        let written = still.write(&frame, order.format, &order.path, cancel)?;
-        Ok(written.flaws)
-    })
-}
-
-/// Threads to export with: half of the cores, for the window stays live.
-fn pool() -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    rayon::ThreadPoolBuilder::new()
-        .num_threads((cores / 2).max(1))
-        .thread_name(|i| format!("sootlight-export-{i}"))
-        .build()
-}
-
-/// An error in one line, with what caused it.
-fn with_causes(error: &dyn std::error::Error) -> String {
-    let mut words = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        let said = error.to_string();
-        // Some errors quote their cause: once is enough.
-        if !words.ends_with(&said) {
-            words = format!("{words} ({said})");
-        }
-        cause = error.source();
-    }
-    words
 }
 
 #[cfg(test)]

@@ -27,6 +27,7 @@ mod snapshots;
 mod start;
 mod theme;
 mod timeline;
+mod words;
 
 use std::path::Path;
 use std::sync::Arc;

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::files::{Outcome, Request};
-use super::scene_file::{is_scene, with_cause};
+use super::scene_file::is_scene;
+use super::words::with_causes;
 use super::{App, Document};
 use crate::project::{BackdropKind, CameraSettings, Preset, Project, ProjectError};
 use crate::volume::{BuiltIn, Volume};
@@ -88,7 +89,7 @@ impl App {
                     .change(|document| document.project.burn_as(scene));
                 self.expose_anew = true;
             }
-            Err(error) => self.notice = Some(with_cause(&error)),
+            Err(error) => self.notice = Some(with_causes(&error)),
         }
     }
 
@@ -97,7 +98,7 @@ impl App {
         let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
         let kept = made.map_err(|error| error.to_string()).and_then(|()| {
             let scene = self.document.project.what_burns();
-            scene.write(path).map_err(|error| with_cause(&error))
+            scene.write(path).map_err(|error| with_causes(&error))
         });
         if let Err(words) = kept {
             self.notice = Some(format!("the preset was not kept: {words}"));

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use super::App;
+use super::words::with_causes;
 use crate::project::Project;
 use crate::project::file::SceneFileError;
 
@@ -148,7 +149,7 @@ impl App {
             Err(error) => {
                 // What was to be closed stays open: nothing is lost.
                 self.stay_open();
-                self.notice = Some(with_cause(&error));
+                self.notice = Some(with_causes(&error));
             }
         }
     }
@@ -192,17 +193,6 @@ pub(super) fn is_settings(text: &str) -> bool {
         line.starts_with('[') && line.ends_with(']') || line.contains(" = ")
     };
     text.lines().any(is_key)
-}
-
-/// An error with its cause, in one line.
-pub(super) fn with_cause(error: &dyn std::error::Error) -> String {
-    let words = error.to_string();
-    let cause = error.source().map(ToString::to_string);
-    // Some errors quote their cause: once is enough.
-    match cause.filter(|cause| !words.ends_with(cause.as_str())) {
-        Some(cause) => format!("{words} ({cause})"),
-        None => words,
-    }
 }
 
 #[cfg(test)]

@@ -36,3 +36,34 @@ impl Gate {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use super::*;
+
+    #[test]
+    fn a_shut_gate_holds_until_it_opens_or_nobody_wants_to_pass() {
+        let (gate, generation) = (Gate::default(), Arc::new(AtomicU64::new(0)));
+        let cancel = Cancel::when_passed(Arc::clone(&generation), 0);
+        // Open, it holds nobody.
+        gate.pass(&cancel);
+        for opens in [true, false] {
+            gate.set_shut(true);
+            std::thread::scope(|scope| {
+                let passes = scope.spawn(|| gate.pass(&cancel));
+                std::thread::sleep(2 * LOOK);
+                assert!(!passes.is_finished() && gate.is_shut());
+                if opens {
+                    gate.set_shut(false);
+                } else {
+                    generation.store(1, Ordering::SeqCst);
+                }
+                passes.join().unwrap();
+            });
+        }
+    }
+}

@@ -74,19 +74,27 @@ impl Taken {
             .map_or(0.0, |(_, peak)| *peak)
     }
 
-    /// Takes in another frame: its fire is framed as well, and a field that is mapped by its peak is mapped by the higher one.
+    /// Takes in another frame: its fire is framed as well, a field that is mapped by its peak is mapped by the higher one, and
+    /// one that only the other has is taken as it is there.
     pub(super) fn join(&mut self, other: &Self) {
         self.fire = self.fire.union(&other.fire);
         if self.producer != other.producer {
             return;
         }
         for kind in FieldKind::ALL {
-            let is_same = self.maps.get(kind).map(|map| &map.grid)
-                == other.maps.get(kind).map(|map| &map.grid);
-            if !is_same || other.peak(kind) <= self.peak(kind) {
+            let theirs = other.maps.get(kind);
+            let is_better = match (self.maps.get(kind), theirs) {
+                (Some(ours), Some(theirs)) => {
+                    ours.grid == theirs.grid && other.peak(kind) > self.peak(kind)
+                }
+                // A field that is empty in this frame; no grid becomes two fields by that.
+                (None, Some(theirs)) => self.maps.iter().all(|(_, map)| map.grid != theirs.grid),
+                (_, None) => false,
+            };
+            if !is_better {
                 continue;
             }
-            let theirs = other.maps.get(kind).cloned();
+            let theirs = theirs.cloned();
             match kind {
                 FieldKind::Soot => self.maps.soot = theirs,
                 FieldKind::Smoke => self.maps.smoke = theirs,

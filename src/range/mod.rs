@@ -28,6 +28,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::project::{FieldSettings, Project};
+use crate::render::Switch;
 use crate::volume::{self, FieldKind, Volume, VolumeError, Watch};
 
 /// Opens what a project needs of a frame's files.
@@ -64,6 +65,10 @@ pub fn project_of(held: &Project, paths: Vec<PathBuf>, volume: &Volume) -> (Proj
                 grid: Some(String::new()),
                 ..FieldSettings::default()
             };
+            if kind == FieldKind::Flame {
+                // Where the flame says what burns in the others, nothing burns here; heat alone is not to say so.
+                project.effects.chemiluminescence = Switch::Off;
+            }
         }
     }
     (project, without)

@@ -87,7 +87,7 @@ pub enum VolumeError {
         second_dims: IVec3,
     },
     /// Two files that were given together carry the same field.
-    #[error("{first} and {second} both hold {field}: open one of them (sequences are not read as one), or, for two fields of one fire, put \"density\" and \"temperature\" into the file names",
+    #[error("{first} and {second} both hold {field}: open one of them (frames of a sequence come with it), or, for two fields of one fire, put \"density\" and \"temperature\" into the file names",
         first = first.display(), second = second.display())]
     SameField {
         /// One file.

@@ -191,4 +191,97 @@ fn a_folder_opens_its_first_frame_and_a_hand_scrubs() {
     settle(&mut harness);
     harness.get_by_label("soot.txt");
     assert!(harness.query_by_label("Play").is_none());
+    // An undo brings back the frame, and its strip with it.
+    harness.state_mut().document_mut().undo();
+    wait_until(&mut harness, |app| app.frame() == Some(2));
+    harness.run_steps(2);
+    settle(&mut harness);
+    harness.get_by_label("Play");
+}
+
+/// Draws frames until there are these words.
+fn wait_for(harness: &mut Harness<'_, App>, words: &str) {
+    for _ in 0..6000 {
+        harness.run_steps(1);
+        if harness.query_by_label_contains(words).is_some() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("never said: {words}");
+}
+
+#[test]
+fn a_range_is_exported_as_the_window_holds_it_and_goes_on_where_it_was_stopped() {
+    let folder = frames();
+    let mut harness = window_on(&folder.path().join("fire_02.vdb"));
+    press(&mut harness, "Next frame");
+    let held = harness.state().document().project.clone();
+    let exposure = harness.state().view().exposure;
+
+    harness.get_by_label("Export…").click_accesskit();
+    harness.run_steps(4);
+    let output = tempfile::tempdir().expect("a temporary folder");
+    let field = harness.get_by_role_and_label(Role::TextInput, "File");
+    // Named after the frame on show: its number becomes that of each.
+    let name = output.path().join("fire_04.png");
+    field.set_text_value_accesskit(name.to_str().expect("a path of letters"));
+    harness.run_steps(2);
+    for (label, side) in [("Width", 60.0), ("Height", 40.0)] {
+        harness
+            .get_by_role_and_label(Role::SpinButton, label)
+            .set_value_accesskit(side);
+        harness.run_steps(2);
+    }
+    harness.get_by_label("Export range").click_accesskit();
+    wait_for(&mut harness, "frames written");
+    harness.get_by_label_contains("4 frames written, 0 kept");
+    harness.get_by_label_contains("1 failed");
+    let of = |number: u32| export::read_png(&output.path().join(format!("fire_{number:02}.png")));
+    for number in [1, 2, 4, 6] {
+        let (_, _, project) = of(number);
+        assert_eq!(project.volume.temperature, held.volume.temperature);
+        assert_eq!(
+            project.volume.path,
+            [folder.path().join(format!("fire_{number:02}.vdb"))]
+        );
+        // What the window shows as white is so in each.
+        let white = project
+            .view
+            .display_white_cd_m2
+            .expect("an exposure that is held");
+        assert!((683.0 / white / exposure - 1.0).abs() < 1e-3, "{white}");
+    }
+    // The hotter the brighter: nothing was exposed by itself.
+    let mean = |number| {
+        let (_, levels, _) = of(number);
+        levels.iter().map(|&level| f64::from(level)).sum::<f64>()
+    };
+    assert!(mean(1) < mean(2) && mean(2) < mean(4) && mean(4) < mean(6));
+
+    std::fs::remove_file(output.path().join("fire_04.png")).expect("it is there");
+    harness.get_by_label("Export range").click_accesskit();
+    harness.run_steps(4);
+    wait_for(&mut harness, "1 frames written, 3 kept");
+}
+
+#[test]
+fn a_frame_that_lacks_a_grid_is_shown_without_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let all = [("flame", 1.0), ("temperature", 1.0), ("density", 0.3)];
+    for (number, grids) in [(1, &all[..]), (2, &all[..2]), (3, &all[..])] {
+        write_vdb(&folder.path().join(format!("fire{number}.vdb")), grids);
+    }
+    let mut harness = window_on(&folder.path().join("fire1.vdb"));
+    let smoke = |app: &App| app.job().expect("a job").flame.maps.smoke.is_some();
+    assert!(smoke(harness.state()));
+    press(&mut harness, "Next frame");
+    assert_eq!(harness.state().frame(), Some(2));
+    assert!(!smoke(harness.state()) && harness.state().notice().is_none());
+    press(&mut harness, "Next frame");
+    assert_eq!(harness.state().frame(), Some(3));
+    assert!(
+        smoke(harness.state()),
+        "what one frame lacks is not lost to the others"
+    );
 }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::{Document, OpenVolume, Step, is_same, within_bounds};
 use crate::app::history::History;
-use crate::project::{CameraSettings, Project, ProjectError, VolumeSettings};
+use crate::project::{Backdrops, CameraSettings, Job, Project, ProjectError, VolumeSettings};
+use crate::range;
 use crate::volume::{Volume, Wanted, recognise};
 
 impl Document {
@@ -82,7 +83,11 @@ impl Document {
 
     fn put(&mut self, volume: Arc<Volume>) {
         let recognised = recognise(&volume);
-        self.restore(Some(Arc::new(OpenVolume { volume, recognised })));
+        self.restore(Some(Arc::new(OpenVolume {
+            volume,
+            recognised,
+            is_a_step: false,
+        })));
         self.metering = None;
     }
 
@@ -113,7 +118,12 @@ impl Document {
     /// Shows the open volume with grids of its files that were left unread. No step of undo: the files are the same.
     pub fn fill(&mut self, volume: Arc<Volume>) {
         let recognised = recognise(&volume);
-        let filled = Some(Arc::new(OpenVolume { volume, recognised }));
+        let is_a_step = self.open.as_ref().is_some_and(|open| open.is_a_step);
+        let filled = Some(Arc::new(OpenVolume {
+            volume,
+            recognised,
+            is_a_step,
+        }));
         let before = self.open.clone();
         self.history.for_each(|step| {
             if is_same(step.open.as_ref(), before.as_ref()) {
@@ -129,11 +139,15 @@ impl Document {
     /// # Errors
     /// [`ProjectError`]: it cannot be rendered with these settings. Everything stays as it was.
     pub fn show_frame(&mut self, volume: Arc<Volume>) -> Result<(), ProjectError> {
-        self.project.job_keeping(&volume, &mut self.backdrops)?;
+        job_of(&self.project, &volume, true, &mut self.backdrops)?;
         let chosen = self.chosen;
         let paths = volume.sources.clone();
         let recognised = recognise(&volume);
-        let frame = Some(Arc::new(OpenVolume { volume, recognised }));
+        let frame = Some(Arc::new(OpenVolume {
+            volume,
+            recognised,
+            is_a_step: true,
+        }));
         let before = self.open.clone();
         self.history.for_each(|step| {
             if is_same(step.open.as_ref(), before.as_ref()) {
@@ -151,4 +165,21 @@ impl Document {
     pub fn do_without_the_rest(&mut self) {
         self.given_up = self.lacking();
     }
+}
+
+/// The job of a project; of a frame that was stepped to without the fields whose grids it lacks, which is told.
+pub(super) fn job_of(
+    project: &Project,
+    volume: &Arc<Volume>,
+    is_a_step: bool,
+    backdrops: &mut Backdrops,
+) -> Result<Job, ProjectError> {
+    if !is_a_step {
+        return project.job_keeping(volume, backdrops);
+    }
+    let paths = project.volume.path.clone();
+    let (project, without) = range::project_of(project, paths, volume);
+    let mut job = project.job_keeping(volume, backdrops)?;
+    job.flaws.extend(without);
+    Ok(job)
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::app::scene_file::with_cause;
+use crate::app::words::with_causes;
 use crate::project::{Preset, Project};
 use crate::sequence::{Sequence, SequenceError};
 use crate::volume::{self, BuiltIn, Limits, Volume, VolumeError, Wanted, Watch};
@@ -163,7 +163,7 @@ fn open_scene(path: PathBuf, watch: &Watch) -> Outcome {
         Ok(project) => Arc::new(project),
         Err(error) => {
             return Outcome::Failed {
-                words: with_cause(&error),
+                words: with_causes(&error),
                 request: Request::Scene(path),
             };
         }

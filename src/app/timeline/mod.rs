@@ -31,6 +31,8 @@ pub(super) const FPS_RANGE: [f64; 2] = [0.1, 240.0];
 /// What the strip shows.
 pub(super) struct Timeline {
     open: Option<Open>,
+    /// The open files, as far as it knows.
+    files: Vec<PathBuf>,
     store: Store,
     /// Frames per second.
     pub(super) fps: f64,
@@ -78,6 +80,7 @@ impl Timeline {
     pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self {
             open: None,
+            files: Vec::new(),
             store: Store::new(wake),
             fps: FPS,
             loops: true,
@@ -126,11 +129,16 @@ impl Timeline {
     fn begin(&mut self, files: &[PathBuf]) {
         self.open = None;
         self.assumed.clear();
+        self.files = files.to_vec();
         self.store.look_for_siblings(files);
     }
 
-    /// Takes in the siblings of the open files, if they are a sequence.
-    fn take_siblings(&mut self, files: &[PathBuf]) {
+    /// Takes in which files are open, and their siblings once those are known.
+    fn follow(&mut self, files: &[PathBuf]) {
+        // An undo may have brought back others.
+        if files != self.files {
+            self.begin(files);
+        }
         let Some((of, sequence)) = self.store.siblings() else {
             return;
         };
@@ -218,8 +226,8 @@ impl App {
 
     /// Goes on with what plays, and shows the frame that is wanted once it is read. Gives the time after which to look again.
     pub(super) fn play(&mut self) -> Option<Duration> {
-        let files = self.document.volume().map(|volume| volume.sources.clone());
-        self.timeline.take_siblings(&files.unwrap_or_default());
+        let files = self.document.volume().map(|volume| &volume.sources[..]);
+        self.timeline.follow(files.unwrap_or_default());
         let has_picture = self.shows_newest() || self.picture.progress.failure.is_some();
         let (loops, period) = (self.timeline.loops, 1.0 / self.timeline.fps);
         let open = self.timeline.open.as_mut()?;
@@ -272,6 +280,7 @@ impl App {
             Ok(()) => {
                 open.current = number;
                 open.wanted = None;
+                self.timeline.files = open.sequence.paths(number);
             }
             Err(words) => {
                 let plays = open.due.is_some();
