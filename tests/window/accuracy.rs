@@ -8,7 +8,7 @@ use super::*;
 /// A window that looks at its scene and chooses.
 fn choosing(project: Project) -> Harness<'static, App> {
     let mut harness = Harness::builder()
-        .with_size([1200.0, 900.0])
+        .with_size([1200.0, 1000.0])
         .build_eframe(|creation| App::new(creation, project).expect("the system gives threads"));
     harness.state_mut().document_mut().fixed_size = Some([64, 64]);
     settle(&mut harness);
