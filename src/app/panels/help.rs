@@ -1,14 +1,21 @@
 //! One page of everything that keys and hands do.
 
-use egui::{Align2, Context, Grid, RichText, ScrollArea, Window};
+use egui::{Align2, Context, Grid, RichText, ScrollArea, Ui, Window, vec2};
 
 use crate::app::theme::IDLE;
 
 /// Height of the window's title and margins in points, with some to spare.
 const BAR: f32 = 80.0;
 
-/// What a hand does and what that does, by what it is about.
-pub(in crate::app) const HANDS: &[(&str, &[(&str, &str)])] = &[
+/// Width of the page in points.
+const WIDTH: f32 = 920.0;
+/// Sections in the left column.
+const COLUMN: usize = 3;
+
+/// What it is about; each hand, and what it does.
+type Section = (&'static str, &'static [(&'static str, &'static str)]);
+
+const HANDS: &[Section] = &[
     (
         "Files",
         &[
@@ -28,6 +35,17 @@ pub(in crate::app) const HANDS: &[(&str, &[(&str, &str)])] = &[
             ("wheel, Ctrl + middle drag", "nearer and further"),
             ("Home", "frame all of the fire"),
             ("1, 3, 7", "front, right, top; with Ctrl the other side"),
+        ],
+    ),
+    (
+        "Controls",
+        &[
+            ("double click", "back to the default"),
+            (
+                "drag on a number",
+                "change it; a click types one, with its unit",
+            ),
+            ("Tab, arrows", "the next control; change it"),
         ],
     ),
     (
@@ -57,17 +75,6 @@ pub(in crate::app) const HANDS: &[(&str, &[(&str, &str)])] = &[
             ("F1", "this page"),
         ],
     ),
-    (
-        "Controls",
-        &[
-            ("double click", "back to the default"),
-            (
-                "drag on a number",
-                "change it; a click types one, with its unit",
-            ),
-            ("Tab, arrows", "the next control; change it"),
-        ],
-    ),
 ];
 
 /// Draws the page if it is open.
@@ -80,20 +87,33 @@ pub(in crate::app) fn show(ctx: &Context, is_open: &mut bool) {
         .default_pos(whole.center())
         .auto_sized()
         .show(ctx, |ui| {
+            ui.set_width(WIDTH.min(whole.width() - 40.0));
             ScrollArea::vertical()
                 .max_height(whole.height() - BAR)
                 .show(ui, |ui| {
-                    Grid::new("hands").num_columns(2).show(ui, |ui| {
-                        for (about, hands) in HANDS {
-                            ui.label(RichText::new(*about).strong());
-                            ui.end_row();
-                            for (hand, does) in *hands {
-                                ui.label(RichText::new(*hand).color(IDLE));
-                                ui.label(*does);
-                                ui.end_row();
-                            }
+                    ui.horizontal_wrapped(|ui| {
+                        let (left, right) = HANDS.split_at(COLUMN);
+                        for (number, column) in [left, right].into_iter().enumerate() {
+                            // Where the window is narrow they stand below each other.
+                            ui.allocate_ui(vec2(0.5 * WIDTH, 0.0), |ui| {
+                                ui.vertical(|ui| page(ui, number, column));
+                            });
                         }
                     });
                 });
         });
+}
+
+fn page(ui: &mut Ui, number: usize, sections: &[Section]) {
+    Grid::new(("hands", number)).num_columns(2).show(ui, |ui| {
+        for (about, hands) in sections {
+            ui.label(RichText::new(*about).strong());
+            ui.end_row();
+            for (hand, does) in *hands {
+                ui.label(RichText::new(*hand).color(IDLE));
+                ui.label(*does);
+                ui.end_row();
+            }
+        }
+    });
 }
