@@ -33,7 +33,7 @@ impl eframe::App for App {
         self.receive();
         self.read_what_is_lacking();
         self.exporter.poll();
-        self.receive_saved();
+        self.receive_saved(ctx);
         if self.lost.words().is_some() && self.closing != Closing::Now {
             self.closing = Closing::AfterExport;
         }

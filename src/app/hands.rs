@@ -117,7 +117,15 @@ impl App {
                 Command::PauseExport(pauses) => self.exporter.pause(pauses),
                 Command::CancelExport => self.exporter.cancel(),
                 Command::CloseAfterExport => self.closing = Closing::AfterExport,
-                Command::CloseNow => self.closing = Closing::Now,
+                Command::CloseNow => self.close_now(),
+                Command::StopAndClose => {
+                    self.exporter.cancel();
+                    self.closing = if self.is_unsaved() {
+                        Closing::AskedUnsaved
+                    } else {
+                        Closing::Now
+                    };
+                }
                 Command::KeepOpen => self.stay_open(),
                 Command::Save => self.save(ctx),
                 Command::SaveAs => {
@@ -133,7 +141,7 @@ impl App {
                     self.closing = Closing::AfterSave;
                     self.save(ctx);
                 }
-                Command::CopySettings => ctx.copy_text(self.document.project.to_toml()),
+                Command::CopySettings => ctx.copy_text(self.document.project.copied()),
                 Command::PasteSettings => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
                 Command::ToggleHelp => self.panels.shows_help = !self.panels.shows_help,
                 Command::ForgetExport => self.exporter.dismiss(),
@@ -182,12 +190,19 @@ impl App {
         let is_asked = || ctx.input(|input| input.viewport().close_requested());
         match self.closing {
             Closing::Now => ctx.send_viewport_cmd(ViewportCommand::Close),
-            Closing::AfterExport if !exports => ctx.send_viewport_cmd(ViewportCommand::Close),
+            // Without a graphics device nothing can be asked; what is set was kept.
+            Closing::AfterExport
+                if !exports && (!self.is_unsaved() || self.lost.words().is_some()) =>
+            {
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+            Closing::AfterExport if !exports => self.closing = Closing::AskedUnsaved,
             _ if exports && is_asked() => {
                 ctx.send_viewport_cmd(ViewportCommand::CancelClose);
                 self.closing = Closing::Asked;
             }
             Closing::Asked if !exports => self.closing = Closing::No,
+            Closing::AskedUnsaved if !self.is_unsaved() => self.closing = Closing::No,
             Closing::No | Closing::AskedUnsaved | Closing::AfterSave
                 if self.is_unsaved() && is_asked() =>
             {
@@ -198,11 +213,14 @@ impl App {
         }
     }
 
-    /// The window closes, if that waited for what was set to be saved.
-    pub(super) fn close_once_saved(&mut self) {
-        if self.closing == Closing::AfterSave {
-            self.closing = Closing::Now;
-        }
+    /// Whether the window is to be closed once what is set was saved.
+    pub(super) fn closes_once_saved(&self) -> bool {
+        self.closing == Closing::AfterSave
+    }
+
+    /// Closes the window, whatever runs.
+    pub(super) fn close_now(&mut self) {
+        self.closing = Closing::Now;
     }
 
     /// What was to be closed stays open.
@@ -238,13 +256,23 @@ impl App {
 
     /// What the keys ask for, unless they are being typed into a field.
     pub(super) fn take_keys(&mut self, ctx: &Context) -> Vec<Command> {
-        if ctx.text_edit_focused() {
-            return Vec::new();
-        }
         let pressed = |modifiers, key| {
             let shortcut = KeyboardShortcut::new(modifiers, key);
             ctx.input_mut(|input| input.consume_shortcut(&shortcut))
         };
+        if ctx.text_edit_focused() {
+            // No field takes these keys; what is typed in it and not entered is not saved.
+            let saves = SHORTCUTS
+                .into_iter()
+                .filter(|(_, _, command)| matches!(command, Command::Save | Command::SaveAs));
+            let saves = saves.filter(|(modifiers, key, _)| pressed(*modifiers, *key));
+            return saves.map(|(_, _, command)| command).collect();
+        }
+        // A question that is open is answered first.
+        if matches!(self.closing, Closing::Asked | Closing::AskedUnsaved) {
+            let stays = pressed(Modifiers::NONE, Key::Escape);
+            return stays.then_some(Command::KeepOpen).into_iter().collect();
+        }
         // A key that is held down switches once; undo goes on and on.
         let held = |key: Key| {
             let is_repeat = |event: &Event| matches!(event, Event::Key { key: it, repeat: true, .. } if *it == key);

@@ -85,9 +85,16 @@ impl App {
     pub(super) fn burn_as(&mut self, path: &Path) {
         match Project::read(path) {
             Ok(scene) => {
-                self.document
-                    .change(|document| document.project.burn_as(scene));
-                self.expose_anew = true;
+                let open = self.document.project.volume.built_in;
+                let mut project = self.document.project.clone();
+                project.burn_as(scene);
+                if project.volume.built_in == open {
+                    self.document.change(|document| document.project = project);
+                    self.expose_anew = true;
+                } else {
+                    // Another of the program's own flames shows it.
+                    self.begin(Request::Session(Arc::new(project)));
+                }
             }
             Err(error) => self.notice = Some(with_causes(&error)),
         }
@@ -120,9 +127,7 @@ impl App {
         while let Some(outcome) = self.loader.poll() {
             match outcome {
                 Outcome::Shown(volume) => {
-                    if self.show(volume, Document::open) {
-                        self.begin_scene();
-                    }
+                    self.by_itself(|app| app.show(volume, Document::open));
                 }
                 Outcome::Restored(volume, project) => {
                     self.show_with(volume, &project);
@@ -137,9 +142,7 @@ impl App {
                     }
                 }
                 Outcome::Replaced(volume) => {
-                    if self.show(volume, Document::replace) {
-                        self.begin_scene();
-                    }
+                    self.show_another(volume);
                 }
                 Outcome::Burning(volume, preset) => {
                     self.show(volume, |document, volume| {
@@ -149,13 +152,12 @@ impl App {
                 Outcome::Completed { open, both } => {
                     let now = self.document.volume();
                     let same = now.is_some_and(|now| Arc::ptr_eq(now, &open));
-                    // Settings made for another volume do not suit these files.
-                    let way = if same {
-                        Document::complete
+                    if same {
+                        self.by_itself(|app| app.show(both, Document::complete));
                     } else {
-                        Document::replace
-                    };
-                    self.show(both, way);
+                        // Settings made for another volume do not suit these files.
+                        self.show_another(both);
+                    }
                 }
                 Outcome::Filled { open, volume } => {
                     let now = self.document.volume();
@@ -180,6 +182,14 @@ impl App {
         self.show(volume, |document, volume| {
             document.replace_and(volume, |changed| changed.clone_from(project))
         })
+    }
+
+    /// Shows a volume in the place of the open one: its scene begins.
+    fn show_another(&mut self, volume: Arc<Volume>) {
+        let was_unsaved = self.is_unsaved();
+        if self.show(volume, Document::replace) {
+            self.begin_scene(was_unsaved);
+        }
     }
 
     /// Shows a volume in one of the document's ways, or says why not. Whether it is shown.

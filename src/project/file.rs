@@ -163,7 +163,7 @@ impl Project {
         self.volume.path.iter().chain(picture).cloned().collect()
     }
 
-    fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+    pub(super) fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let picture = self.stage.backdrop_picture.iter_mut();
         self.volume.path.iter_mut().chain(picture)
     }

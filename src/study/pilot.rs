@@ -21,10 +21,6 @@ const LEAST_PACKETS: usize = 24;
 const MOST_OF_PICTURE: f64 = 0.02;
 /// The set that others are compared with.
 const FINEST_SET: WavelengthSet = WavelengthSet::Plain(64);
-/// Share of the target that wavelengths may take for the set to be the one that steps are tried with.
-const SHARE_OF_SET: f64 = 0.7;
-/// Most wavelengths of a set that steps are tried with where none is good enough.
-const QUICK_SET: u32 = 16;
 
 /// Work of a sample beside what each wavelength takes of it: finding it and fetching what is there.
 const WORK_OF_SAMPLE: f64 = 10.0;
@@ -124,7 +120,7 @@ impl Pilot {
             Sight::of(&lit.xyz, weights)
         })?;
         tried::compare(&sight, &mut sets, &finest);
-        let set = set_for(&sets, settings, wished);
+        let set = tried::set_for(&sets, plan, settings, wished);
         let settings = Settings {
             wavelengths: set,
             ..*settings
@@ -151,7 +147,7 @@ impl Pilot {
         let reference: Picture = pixels
             .map(|(xyz, (set, rays))| std::array::from_fn(|c| xyz[c] * set[c] * rays[c]))
             .collect();
-        let own = own_error(&sight, &steps, &sets, &rays);
+        let own = tried::own_error(&sight, &steps, &sets, &rays);
         let lit = sight.lit_weight(&reference);
         let longest = scene.flame.medium().longest_side_voxels();
         let work_of_ray = WORK_OF_RAY
@@ -373,40 +369,4 @@ impl Pilot {
             rays.unwrap_or(&self.rays[0]),
         )
     }
-}
-
-/// The smallest set whose error leaves some of the target to others, or else the best of those that are not slow.
-fn set_for(sets: &[Tried<WavelengthSet>], settings: &Settings, wished: Accuracy) -> WavelengthSet {
-    if !wished.wavelengths {
-        return settings.wavelengths;
-    }
-    let good = sets
-        .iter()
-        .find(|it| it.error.de95 <= SHARE_OF_SET * wished.target_de);
-    let quick = sets.iter().filter(|it| it.what.count() <= QUICK_SET);
-    let best = quick.min_by(|one, other| one.error.de95.total_cmp(&other.error.de95));
-    good.or(best).map_or(settings.wavelengths, |it| it.what)
-}
-
-/// What the reference is off by: the midpoint rule's error falls to a quarter with half the step (L. F. Richardson 1911), that
-/// of bands of wavelengths and of evenly spread rays likewise with twice their number.
-fn own_error(
-    sight: &Sight,
-    steps: &[Tried<f64>],
-    sets: &[Tried<WavelengthSet>],
-    rays: &[Tried<u32>],
-) -> Error {
-    fn last<T>(sight: &Sight, tried: &[Tried<T>], share: f64) -> Error {
-        let [.., before, last] = tried else {
-            return Error::default();
-        };
-        sight.error(&last.xyz, &before.xyz).scaled(share)
-    }
-    let share = match steps {
-        [.., before, last] => 1.0 / ((before.what / last.what).powi(2) - 1.0),
-        _ => 0.0,
-    };
-    last(sight, steps, share)
-        .beside(last(sight, sets, 1.0 / 3.0))
-        .beside(last(sight, rays, 1.0 / 3.0))
 }

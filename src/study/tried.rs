@@ -2,12 +2,18 @@
 
 use super::numbers::{RAYS, STEPS};
 use super::sight::{Error, Picture, Sight};
+use crate::project::Accuracy;
 use crate::render::part::{Part, Rendered};
 use crate::render::{Cancel, Plan, Settings};
 use crate::scene::{Scene, WavelengthSet};
 
 /// Step at which wavelengths and rays are tried, voxels.
 pub(super) const STEP: f64 = 1.0;
+
+/// Most wavelengths of a set that steps are tried with where none is good enough.
+const QUICK_SET: u32 = 16;
+/// Share of the target that wavelengths may take for the set to be the one that steps are tried with.
+const SHARE_OF_SET: f64 = 0.7;
 
 /// One number, tried.
 #[derive(Debug, Clone)]
@@ -122,4 +128,50 @@ pub(super) fn times(one: &[[f64; 3]], other: &[[f64; 3]]) -> Vec<[f64; 3]> {
     pixels
         .map(|(one, other)| std::array::from_fn(|c| of_channel(one[c], other[c])))
         .collect()
+}
+
+/// The smallest set whose error leaves some of the target to others. Where there is none, that of the plan if its light from all
+/// sides would have to be worked out again for another; or else the best of those that are not slow.
+pub(super) fn set_for(
+    sets: &[Tried<WavelengthSet>],
+    plan: &Plan,
+    settings: &Settings,
+    wished: Accuracy,
+) -> WavelengthSet {
+    if !wished.wavelengths {
+        return settings.wavelengths;
+    }
+    let good = sets
+        .iter()
+        .find(|it| it.error.de95 <= SHARE_OF_SET * wished.target_de);
+    let quick = sets.iter().filter(|it| it.what.count() <= QUICK_SET);
+    let best = quick.min_by(|one, other| one.error.de95.total_cmp(&other.error.de95));
+    let known = sets.iter().find(|it| it.what.count() == plan.wavelengths());
+    let known = known.filter(|_| plan.gathers());
+    good.or(known)
+        .or(best)
+        .map_or(settings.wavelengths, |it| it.what)
+}
+
+/// What the reference is off by: the midpoint rule's error falls to a quarter with half the step (L. F. Richardson 1911), that
+/// of bands of wavelengths and of evenly spread rays likewise with twice their number.
+pub(super) fn own_error(
+    sight: &Sight,
+    steps: &[Tried<f64>],
+    sets: &[Tried<WavelengthSet>],
+    rays: &[Tried<u32>],
+) -> Error {
+    fn last<T>(sight: &Sight, tried: &[Tried<T>], share: f64) -> Error {
+        let [.., before, last] = tried else {
+            return Error::default();
+        };
+        sight.error(&last.xyz, &before.xyz).scaled(share)
+    }
+    let share = match steps {
+        [.., before, last] => 1.0 / ((before.what / last.what).powi(2) - 1.0),
+        _ => 0.0,
+    };
+    last(sight, steps, share)
+        .beside(last(sight, sets, 1.0 / 3.0))
+        .beside(last(sight, rays, 1.0 / 3.0))
 }

@@ -75,6 +75,16 @@ fn a_scene_is_saved_where_it_is_told_and_opened_as_it_was() {
     other.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     settle(&mut other);
     assert_eq!(other.state().document().project.soot.amount, 1.0);
+    // What is open then is not that file's scene, and does not replace it.
+    other.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    other.run_steps(4);
+    assert!(
+        other.query_by_label("Scene file").is_some(),
+        "it asks where"
+    );
+    assert_eq!(Project::read(&path).unwrap().soot.amount, 0.5);
+    other.key_press(Key::Escape);
+    other.run_steps(2);
 
     // A scene that cannot be read leaves all as it is, in words.
     std::fs::write(&path, "[soot]\namont = 1").unwrap();
@@ -134,6 +144,52 @@ fn a_window_whose_settings_are_in_no_file_asks_before_it_closes() {
     assert!(!ask_to_close(&mut other));
     press(&mut other, "Close without saving");
     assert!(ask_to_close(&mut other));
+}
+
+#[test]
+fn a_frame_that_is_shown_instead_is_nothing_to_be_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = [1, 2].map(|number| {
+        let path = folder.path().join(format!("fire_{number}.vdb"));
+        let peak = 0.5 + 0.2 * number as f32;
+        crate::common::write_vdb(
+            &path,
+            &[("density", 0.4), ("flame", peak), ("temperature", 2.0)],
+        );
+        path
+    });
+    let mut harness = window_of(Project::default(), [900.0, 600.0]);
+    harness.state_mut().open(vec![paths[0].clone()]);
+    settle(&mut harness);
+    assert!(!harness.state().is_unsaved(), "it was opened");
+    for _ in 0..200 {
+        if harness.state().frame().is_some() {
+            break;
+        }
+        harness.run_steps(1);
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    harness.key_press(Key::ArrowRight);
+    settle(&mut harness);
+    assert_eq!(harness.state().frame(), Some(2));
+    assert!(!harness.state().is_unsaved());
+    harness
+        .state_mut()
+        .document_mut()
+        .project
+        .volume
+        .temperature
+        .offset = Some(250.0);
+    settle(&mut harness);
+    assert!(harness.state().is_unsaved());
+
+    // What was set for one fire and goes on for the next is still in no file.
+    let mut harness = window_of(Project::default(), [900.0, 600.0]);
+    harness.state_mut().document_mut().project.soot.amount = 2.5;
+    settle(&mut harness);
+    harness.state_mut().open(vec![paths[0].clone()]);
+    settle(&mut harness);
+    assert!(harness.state().is_unsaved());
 }
 
 #[test]

@@ -108,8 +108,10 @@ pub(super) enum Command {
     CancelExport,
     /// Close the window as soon as the export is done.
     CloseAfterExport,
-    /// Close the window and give the export up.
+    /// Close the window, whatever is lost with it.
     CloseNow,
+    /// Stop the export, then close the window.
+    StopAndClose,
     /// Keep the window open.
     KeepOpen,
     /// Save what is set where it was saved before, or ask where.

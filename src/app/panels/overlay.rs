@@ -38,7 +38,7 @@ pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &m
             "An export is running. If the window closes now, nothing will be written.",
             [
                 ("Close when it is done", Command::CloseAfterExport),
-                ("Stop it and close", Command::CloseNow),
+                ("Stop it and close", Command::StopAndClose),
                 ("Go on working", Command::KeepOpen),
             ],
             commands,

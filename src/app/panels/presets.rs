@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{
-    Button, ColorImage, Grid, Image, RichText, ScrollArea, TextEdit, TextureHandle, TextureOptions,
-    Ui, vec2,
+    Button, ColorImage, Grid, Image, PopupCloseBehavior, RichText, ScrollArea, TextEdit,
+    TextureHandle, TextureOptions, Ui, vec2,
 };
 
 use super::Command;
@@ -42,13 +43,16 @@ impl PresetsMenu {
             let tip = "Sets what burns: fuel, salt, glow and soot. A file that is open keeps its shape and its mapping; one of \
                        the program's own flames gives way to the one that shows the preset best.";
             name(ui, "Burn as", tip);
-            let menu = ui.menu_button("a preset…", |ui| {
+            // A click into the field for a name does not close it.
+            let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+            let menu = MenuButton::new("a preset…").config(stays);
+            let (menu, _) = menu.ui(ui, |ui| {
                 ScrollArea::vertical().max_height(HEIGHT).show(ui, |ui| {
                     self.pictured(ui, commands);
                     self.kept(ui, commands);
                 });
             });
-            menu.response.on_hover_text(tip);
+            menu.on_hover_text(tip);
         });
     }
 
@@ -114,7 +118,9 @@ impl PresetsMenu {
             let path = path_of(&folder, &self.name);
             let tip = "Keep fuel, salt, glow, soot, smoke and effects as a preset of your own: a scene file in the folder below, \
                        which others can be given.";
-            if button(ui, path.is_some(), "Keep", tip) {
+            let replaces = path.as_ref().is_some_and(|path| self.own.contains(path));
+            let label = if replaces { "Replace" } else { "Keep" };
+            if button(ui, path.is_some(), label, tip) {
                 commands.extend(path.map(Command::KeepPreset));
                 self.name.clear();
                 self.looked_up = None;

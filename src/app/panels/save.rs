@@ -77,7 +77,7 @@ impl SavePanel {
             .auto_sized()
             .show(ctx, |ui| {
                 ui.set_width(WIDTH.min(whole.width() - 40.0));
-                let mut saves = false;
+                let (mut saves, mut enters) = (false, false);
                 ui.horizontal(|ui| {
                     let choose = ui
                         .button("Choose…")
@@ -91,7 +91,7 @@ impl SavePanel {
                     }
                     let field = TextEdit::singleline(&mut self.text).desired_width(f32::INFINITY);
                     let field = ui.add(field).accessible_name("Scene file");
-                    saves |= field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+                    enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
                     field.on_hover_text("The path of the scene file.");
                 });
                 let words = "A scene file holds all that is set, and names the volume; it is text. Open it here or give it to \
@@ -104,6 +104,8 @@ impl SavePanel {
                 let path = self.path();
                 let exists = path.as_ref().is_some_and(|path| self.exists(path));
                 let is_own = path.as_deref() == saved;
+                // A file is not replaced by a key that is pressed before the eye was there.
+                saves |= enters && (!exists || is_own);
                 ui.horizontal(|ui| {
                     let label = if exists && !is_own { "Replace" } else { "Save" };
                     let may = path.is_some() && !is_writing;

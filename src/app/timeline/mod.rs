@@ -305,9 +305,11 @@ impl App {
             let taken = Taken::of(&self.document.project, job);
             let effects = self.effects_on_show();
             let assumed: Vec<String> = job.flaws.iter().map(String::from).collect();
-            self.document.change(|document| {
-                taken.hold(&mut document.project);
-                document.project.effects = effects.unwrap_or(document.project.effects);
+            self.by_itself(|app| {
+                app.document.change(|document| {
+                    taken.hold(&mut document.project);
+                    document.project.effects = effects.unwrap_or(document.project.effects);
+                });
             });
             if let (Some(volume), Some(current)) = (self.document.volume(), self.timeline.current())
                 && let Ok(held) = self.document.project.job(volume)
