@@ -15,7 +15,7 @@ pub struct Order {
     pub sequence: Sequence,
     /// Which of them, in the order in which they are made.
     pub numbers: Vec<u64>,
-    /// Where to; see [`target()`].
+    /// Where to; see [`super::target()`].
     pub output: PathBuf,
     /// As what.
     pub format: Format,
