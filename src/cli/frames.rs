@@ -1,6 +1,7 @@
 //! `sootlight render --frames A-B`: a range of a sequence, frame by frame.
 
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
@@ -29,7 +30,7 @@ impl Render {
                 sequence.pattern()
             )));
         };
-        self.refuse_lost_stats(&sequence, &numbers)?;
+        self.check_targets(&sequence, &numbers)?;
         for words in sequence.notes() {
             output::say(&format!("note: {words}"));
         }
@@ -73,13 +74,22 @@ impl Render {
         told.judged()
     }
 
-    /// Statistics may not take the place of a picture.
-    fn refuse_lost_stats(&self, sequence: &Sequence, numbers: &[u64]) -> Result<(), CliError> {
+    /// Pictures that cannot be written are not worth the measuring; statistics may take the place of neither a picture nor what
+    /// one is made from.
+    fn check_targets(&self, sequence: &Sequence, numbers: &[u64]) -> Result<(), CliError> {
+        let refused = |error| CliError::failed("nothing was rendered", error);
+        let sources: Vec<PathBuf> = numbers
+            .iter()
+            .flat_map(|&number| sequence.paths(number))
+            .collect();
+        if let Some(&first) = numbers.first() {
+            let first = range::target(&self.output, first, sequence.padding());
+            export::check_target(&first, &sources).map_err(refused)?;
+        }
         let Some(stats) = &self.stats else {
             return Ok(());
         };
-        export::check_writable(stats)
-            .map_err(|error| CliError::failed("nothing was rendered", error))?;
+        export::check_target(stats, &sources).map_err(refused)?;
         let target = |&number: &u64| range::target(&self.output, number, sequence.padding());
         let mut targets = numbers.iter().map(target);
         match targets.find(|target| is_same_file(stats, target)) {

@@ -266,6 +266,11 @@ fn what_makes_no_sense_is_said() {
             "the picture of a frame is the same file",
         ),
         (
+            "density_08.txt -o a.png --frames 8-9 --stats density_09.txt",
+            1,
+            "nothing was rendered",
+        ),
+        (
             "density_08.txt -o none/a.png --frames 8-9",
             1,
             "folder does not exist",

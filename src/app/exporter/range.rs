@@ -76,10 +76,18 @@ impl Wish {
     }
 }
 
-/// A name that ends with the number of the frame on show, with that of each frame in its place.
+/// A name that ends with the number of the frame on show, with that of each frame in its place. Digits that are a part of a longer
+/// number, or a lone one that belongs to a word as in `v2`, are no frame's.
 pub(in crate::app) fn numbered(path: &Path, current: &str) -> PathBuf {
     let stem = path.file_stem().and_then(|stem| stem.to_str());
-    let Some(before) = stem.and_then(|stem| stem.strip_suffix(current)) else {
+    let before = stem.and_then(|stem| stem.strip_suffix(current));
+    let is_number = |before: &&str| {
+        let last = before.chars().next_back();
+        !last.is_some_and(|last| {
+            last.is_ascii_digit() || current.len() == 1 && last.is_alphanumeric()
+        })
+    };
+    let Some(before) = before.filter(is_number) else {
         return path.to_owned();
     };
     let name = format!("{before}{}", "#".repeat(current.len()));
@@ -153,6 +161,10 @@ mod tests {
             ("fire.0022.exr", "0022", "fire.####.exr"),
             ("fire.png", "02", "fire.png"),
             ("fire_2.png", "02", "fire_2.png"),
+            ("fire_2.png", "2", "fire_#.png"),
+            ("fire_12.png", "2", "fire_12.png"),
+            ("final_v2.png", "2", "final_v2.png"),
+            ("fire0002.png", "0002", "fire####.png"),
         ] {
             assert_eq!(numbered(Path::new(path), current), Path::new(expected));
         }
