@@ -291,6 +291,18 @@ fn a_scene_file_finds_its_volume_beside_it() {
     std::fs::write(place.path("scenes/fire.toml"), scene).unwrap();
     place.expect(0, "render --scene scenes/fire.toml -o a.png");
     assert_eq!(read_png(&place.path("a.png")).1.width, 16);
+    // Named where volumes are, it is the scene to start from as well.
+    let [by_flag, _] = place.expect(0, "info --scene scenes/fire.toml");
+    let [by_name, _] = place.expect(0, "info scenes/fire.toml");
+    assert_eq!(by_flag, by_name);
+    for words in [
+        "info scenes/fire.toml --preset candle",
+        "info scenes/fire.toml --scene scenes/fire.toml",
+        "render scenes/fire.toml scenes/fire.toml -o a.png",
+    ] {
+        let [_, error] = place.expect(2, words);
+        assert!(error.contains("name one scene"), "{error}");
+    }
     // A file on the command line takes the place of the scene's.
     let [said, _] = place.expect(0, "info density.txt --scene scenes/fire.toml");
     assert!(!said.contains("temperature.txt"), "{said}");

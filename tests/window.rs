@@ -64,6 +64,18 @@ fn settle(harness: &mut Harness<'_, App>) {
     panic!("never settled: {:?}", harness.state().picture().progress);
 }
 
+/// Draws frames until there are these words.
+fn wait_for(harness: &mut Harness<'_, App>, words: &str) {
+    for _ in 0..6000 {
+        harness.run_steps(1);
+        if harness.query_by_label_contains(words).is_some() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("never said: {words}");
+}
+
 /// Waits until a notice is up.
 fn settle_with_notice(harness: &mut Harness<'_, App>) -> String {
     for _ in 0..1000 {

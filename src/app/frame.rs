@@ -3,8 +3,9 @@
 use std::time::Duration;
 
 use super::canvas::{Beside, Over};
+use super::closing::{Close, Closing};
 use super::snapshots::Way;
-use super::{App, Closing, hands, panels, plots, timeline};
+use super::{App, hands, panels, plots, timeline};
 
 /// While a file is read, how far it is is drawn this often.
 const LOADING_FRAME: Duration = Duration::from_millis(100);
@@ -35,7 +36,7 @@ impl eframe::App for App {
         self.exporter.poll();
         self.receive_saved(ctx);
         if self.lost.words().is_some() && self.closing != Closing::Now {
-            self.closing = Closing::AfterExport;
+            self.close(Close::AfterExport, ctx);
         }
         // A hidden window can be closed as well.
         self.guard_what_would_be_lost(ctx);

@@ -6,13 +6,14 @@ use std::time::Duration;
 
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, ViewportCommand};
 
+use super::App;
+use super::closing::Close;
 use super::files::{Request, paths_of};
 use super::maps::Map;
 use super::panels::Command;
 use super::scene_file::is_settings;
 use super::snapshots::{MOST, Way};
 use super::timeline::Step;
-use super::{App, Closing};
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
 const SHORTCUTS: [(Modifiers, Key, Command); 16] = [
@@ -50,8 +51,8 @@ impl App {
                 Command::Ask => self.loader.ask(),
                 Command::Open(paths) => self.open(paths),
                 Command::BuiltIn(flame) => self.begin(Request::OtherBuiltIn(flame, None)),
-                Command::Preset(preset) => self.take(preset),
-                Command::BurnAs(path) => self.burn_as(&path),
+                Command::Preset(preset) => self.burn_as(preset.project()),
+                Command::BurnAs(path) => self.burn_as_file(&path),
                 Command::KeepPreset(path) => self.keep_preset(&path),
                 Command::CancelLoading => self.cancel_loading(),
                 Command::Undo => self.document.undo(),
@@ -116,17 +117,7 @@ impl App {
                 }
                 Command::PauseExport(pauses) => self.exporter.pause(pauses),
                 Command::CancelExport => self.exporter.cancel(),
-                Command::CloseAfterExport => self.closing = Closing::AfterExport,
-                Command::CloseNow => self.close_now(),
-                Command::StopAndClose => {
-                    self.exporter.cancel();
-                    self.closing = if self.is_unsaved() {
-                        Closing::AskedUnsaved
-                    } else {
-                        Closing::Now
-                    };
-                }
-                Command::KeepOpen => self.stay_open(),
+                Command::Close(close) => self.close(close, ctx),
                 Command::Save => self.save(ctx),
                 Command::SaveAs => {
                     let saved = self.scene_file.path();
@@ -136,10 +127,6 @@ impl App {
                 Command::CloseSave => {
                     self.panels.save.close();
                     self.stay_open();
-                }
-                Command::CloseAfterSave => {
-                    self.closing = Closing::AfterSave;
-                    self.save(ctx);
                 }
                 Command::CopySettings => ctx.copy_text(self.document.project.copied()),
                 Command::PasteSettings => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
@@ -184,58 +171,6 @@ impl App {
         }
     }
 
-    /// A window that exports, or whose settings are in no file, is not closed without a word: they would be lost.
-    pub(super) fn guard_what_would_be_lost(&mut self, ctx: &Context) {
-        let exports = self.exporter.running().is_some();
-        let is_asked = || ctx.input(|input| input.viewport().close_requested());
-        match self.closing {
-            Closing::Now => ctx.send_viewport_cmd(ViewportCommand::Close),
-            // Without a graphics device nothing can be asked; what is set was kept.
-            Closing::AfterExport
-                if !exports && (!self.is_unsaved() || self.lost.words().is_some()) =>
-            {
-                ctx.send_viewport_cmd(ViewportCommand::Close);
-            }
-            Closing::AfterExport if !exports => self.closing = Closing::AskedUnsaved,
-            _ if exports && is_asked() => {
-                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-                self.closing = Closing::Asked;
-            }
-            Closing::Asked if !exports => self.closing = Closing::No,
-            Closing::AskedUnsaved if !self.is_unsaved() => self.closing = Closing::No,
-            Closing::No | Closing::AskedUnsaved | Closing::AfterSave
-                if self.is_unsaved() && is_asked() =>
-            {
-                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-                self.closing = Closing::AskedUnsaved;
-            }
-            _ => {}
-        }
-    }
-
-    /// Whether the window is to be closed once what is set was saved.
-    pub(super) fn closes_once_saved(&self) -> bool {
-        self.closing == Closing::AfterSave
-    }
-
-    /// Closes the window, whatever runs.
-    pub(super) fn close_now(&mut self) {
-        self.closing = Closing::Now;
-    }
-
-    /// What was to be closed stays open.
-    pub(super) fn stay_open(&mut self) {
-        self.closing = Closing::No;
-    }
-
-    /// Saves what is set where it was saved before, or asks where.
-    fn save(&mut self, ctx: &Context) {
-        match self.scene_file.path().map(std::path::Path::to_owned) {
-            Some(path) => self.save_to(path, ctx),
-            None => self.panels.save.open(&self.document, None),
-        }
-    }
-
     /// Files let go over the window, and paths or settings pasted where nothing else takes them.
     pub(super) fn take_drops(&mut self, ctx: &Context) {
         let mut paths: Vec<PathBuf> = ctx.input(|input| {
@@ -269,9 +204,10 @@ impl App {
             return saves.map(|(_, _, command)| command).collect();
         }
         // A question that is open is answered first.
-        if matches!(self.closing, Closing::Asked | Closing::AskedUnsaved) {
+        if self.closing.is_asked() {
             let stays = pressed(Modifiers::NONE, Key::Escape);
-            return stays.then_some(Command::KeepOpen).into_iter().collect();
+            let stay = stays.then_some(Command::Close(Close::Not));
+            return stay.into_iter().collect();
         }
         // A key that is held down switches once; undo goes on and on.
         let held = |key: Key| {

@@ -8,6 +8,7 @@ mod accuracy;
 mod autosave;
 mod background;
 mod canvas;
+mod closing;
 mod document;
 mod exporter;
 mod files;
@@ -40,6 +41,7 @@ pub use start::{AppError, run};
 use self::accuracy::{Accuracy, Told};
 use self::autosave::Autosave;
 use self::canvas::Canvas;
+use self::closing::Closing;
 use self::exporter::Exporter;
 use self::files::{Loader, Request};
 use self::lost::Lost;
@@ -99,24 +101,6 @@ pub struct App {
     /// Whether somebody wants to close the window while it exports, or with settings that are in no file.
     closing: Closing,
     title: String,
-}
-
-/// What becomes of a window that is to be closed while something would be lost with it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Closing {
-    /// Nobody asked.
-    #[default]
-    No,
-    /// It was asked for, and the answer is awaited.
-    Asked,
-    /// It was asked for while what is set was in no file, and the answer is awaited.
-    AskedUnsaved,
-    /// It closes once what is set was saved.
-    AfterSave,
-    /// It closes once the export has ended.
-    AfterExport,
-    /// It closes, whatever runs.
-    Now,
 }
 
 impl App {
@@ -275,8 +259,9 @@ impl App {
             .last_job()
             .into_iter()
             .flat_map(|job| job.flaws.iter());
-        let held = self.timeline.assumed();
-        let held = held.filter(|_| range::is_held(&self.document.project));
+        let is_held = |job: &Job| range::is_held(&self.document.project, job);
+        let is_held = self.document.last_job().is_some_and(is_held);
+        let held = self.timeline.assumed().filter(|_| is_held);
         let own = self.picture.progress.flaws.iter();
         own.chain(assumed).chain(held).collect()
     }

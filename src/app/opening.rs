@@ -7,7 +7,7 @@ use super::files::{Outcome, Request};
 use super::scene_file::is_scene;
 use super::words::with_causes;
 use super::{App, Document};
-use crate::project::{BackdropKind, CameraSettings, Preset, Project, ProjectError};
+use crate::project::{BackdropKind, CameraSettings, Project, ProjectError};
 use crate::volume::{BuiltIn, Volume};
 
 /// Whether a file is a picture by its name: it goes behind the fire.
@@ -66,36 +66,25 @@ impl App {
         }
     }
 
-    /// Lets the fire burn as in a preset: a file's fire as it is, one of the program's own in the flame that shows the
-    /// preset best.
-    pub(super) fn take(&mut self, preset: &'static Preset) {
+    /// Lets the fire burn as in a scene: a file's fire as it is, one of the program's own in the flame of the scene, if it is of
+    /// one.
+    pub(super) fn burn_as(&mut self, scene: Project) {
         let open = self.document.volume().and_then(|volume| volume.built_in);
-        let best = preset.project().volume.built_in;
-        if open.is_some_and(|open| open != best) {
-            self.begin(Request::OtherBuiltIn(best, Some(preset)));
+        let best = scene.volume.built_in;
+        if scene.volume.path.is_empty() && open.is_some_and(|open| open != best) {
+            self.begin(Request::OtherBuiltIn(best, Some(Arc::new(scene))));
         } else {
             self.document
-                .change(|document| preset.apply(&mut document.project));
+                .change(|document| document.project.burn_as(scene));
             // What burns otherwise may be a thousand times as bright.
             self.expose_anew = true;
         }
     }
 
-    /// Lets the fire burn as in a scene file, which may be a preset that somebody kept.
-    pub(super) fn burn_as(&mut self, path: &Path) {
+    /// The same as in a scene file, which may be a preset that somebody kept.
+    pub(super) fn burn_as_file(&mut self, path: &Path) {
         match Project::read(path) {
-            Ok(scene) => {
-                let open = self.document.project.volume.built_in;
-                let mut project = self.document.project.clone();
-                project.burn_as(scene);
-                if project.volume.built_in == open {
-                    self.document.change(|document| document.project = project);
-                    self.expose_anew = true;
-                } else {
-                    // Another of the program's own flames shows it.
-                    self.begin(Request::Session(Arc::new(project)));
-                }
-            }
+            Ok(scene) => self.burn_as(scene),
             Err(error) => self.notice = Some(with_causes(&error)),
         }
     }
@@ -144,10 +133,14 @@ impl App {
                 Outcome::Replaced(volume) => {
                     self.show_another(volume);
                 }
-                Outcome::Burning(volume, preset) => {
-                    self.show(volume, |document, volume| {
-                        document.replace_and(volume, |project| preset.apply(project))
+                Outcome::Burning(volume, scene) => {
+                    let was_unsaved = self.is_unsaved();
+                    let shown = self.show(volume, |document, volume| {
+                        document.replace_and(volume, |project| project.burn_as((*scene).clone()))
                     });
+                    if shown {
+                        self.begin_scene(was_unsaved);
+                    }
                 }
                 Outcome::Completed { open, both } => {
                     let now = self.document.volume();

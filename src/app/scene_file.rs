@@ -276,12 +276,27 @@ impl App {
         self.shows_its_volume();
     }
 
+    /// What is open was read from a scene's file, which says this; what was set beside is in no file yet.
+    pub fn is_of_scene(&mut self, path: &Path, said: Project) {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.recent.add(std::slice::from_ref(&path));
+        self.scene_file.begin(Some(path), said);
+    }
+
     /// The scene that was begun last is that of the volume on show.
     fn shows_its_volume(&mut self) {
         if let (Some(scene), Some(volume)) =
             (self.scene_file.known.last_mut(), self.document.volume())
         {
             scene.volume = Arc::downgrade(volume);
+        }
+    }
+
+    /// Saves what is set where it was saved before, or asks where.
+    pub(super) fn save(&mut self, ctx: &egui::Context) {
+        match self.scene_file.path().map(Path::to_owned) {
+            Some(path) => self.save_to(path, ctx),
+            None => self.panels.save.open(&self.document, None),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Opening the window, and what to say where that fails.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use eframe::egui_wgpu::WgpuError;
@@ -49,11 +50,12 @@ const SIZE: [f32; 2] = [1280.0, 800.0];
 /// Least size at which every control can be reached.
 const LEAST_SIZE: [f32; 2] = [720.0, 480.0];
 
-/// Opens the window and stays until it is closed.
+/// Opens the window on a project, and on a scene's file with what that says by itself if there is one; stays until it is
+/// closed.
 ///
 /// # Errors
 /// [`AppError`]: there is no desktop, no graphics driver, or something that both need.
-pub fn run(project: Project) -> Result<(), AppError> {
+pub fn run(project: Project, scene: Option<(PathBuf, Project)>) -> Result<(), AppError> {
     let title = title_of(&project);
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
@@ -70,7 +72,10 @@ pub fn run(project: Project) -> Result<(), AppError> {
     let open = || {
         let device = &device;
         let create = move |creation: &eframe::CreationContext<'_>| {
-            let app = App::new(creation, project)?;
+            let mut app = App::new(creation, project)?;
+            if let Some((path, said)) = scene {
+                app.is_of_scene(&path, said);
+            }
             let _ = device.set(app.lost.clone());
             Ok(Box::new(app) as Box<dyn eframe::App>)
         };

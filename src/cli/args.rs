@@ -52,10 +52,23 @@ pub(super) enum Sub {
     Spectrum(SpectrumArgs),
 }
 
+impl Args {
+    /// What makes the project, whatever is to be done with it.
+    pub(super) fn project_mut(&mut self) -> &mut ProjectArgs {
+        match &mut self.command {
+            None => &mut self.project,
+            Some(Sub::Info { project, .. }) => project,
+            Some(Sub::Render(args)) => &mut args.project,
+            Some(Sub::Study(args)) => &mut args.project,
+            Some(Sub::Spectrum(args)) => &mut args.project,
+        }
+    }
+}
+
 /// What makes a project.
 #[derive(Debug, Clone, Default, ClapArgs)]
 pub(super) struct ProjectArgs {
-    /// Volume files: OpenVDB, dense or sparse ASCII, sparse binary; several are read as one volume.
+    /// Volume files: OpenVDB, dense or sparse ASCII, sparse binary; several are read as one volume. Or a scene file.
     #[arg(value_name = "FILE")]
     pub(super) files: Vec<PathBuf>,
     /// A scene file to start from.

@@ -15,7 +15,7 @@ use crate::sequence::Frames;
 #[derive(Debug)]
 pub(super) enum Command {
     /// Open the window.
-    Window(Box<Project>),
+    Window(Box<Window>),
     /// Render a still.
     Render(Box<Render>),
     /// Measure what accuracy costs.
@@ -24,6 +24,14 @@ pub(super) enum Command {
     Info(Box<Info>),
     /// Tabulate the optics of a place.
     Spectrum(Box<Spectrum>),
+}
+
+/// A window to open.
+#[derive(Debug)]
+pub(super) struct Window {
+    pub(super) project: Project,
+    /// The scene file that was named, and what it says by itself.
+    pub(super) scene: Option<(PathBuf, Project)>,
 }
 
 /// A still to render.
@@ -76,12 +84,10 @@ const SHARE: [f64; 2] = [0.0, 1.0];
 
 impl Command {
     /// What the arguments mean.
-    pub(super) fn new(args: Args) -> Result<Self, CliError> {
+    pub(super) fn new(mut args: Args) -> Result<Self, CliError> {
+        find_scene(args.project_mut())?;
         match args.command {
-            None => {
-                refuse_mistyped_command(&args.project.files)?;
-                project(&args.project, |_| {}).map(|project| Self::Window(Box::new(project)))
-            }
+            None => Window::new(&args.project).map(|window| Self::Window(Box::new(window))),
             Some(Sub::Info {
                 project: args,
                 plan,
@@ -96,6 +102,17 @@ impl Command {
                 Spectrum::new(args).map(|spectrum| Self::Spectrum(Box::new(spectrum)))
             }
         }
+    }
+}
+
+impl Window {
+    fn new(args: &ProjectArgs) -> Result<Self, CliError> {
+        refuse_mistyped_command(&args.files)?;
+        let said = |path: &PathBuf| Ok((path.clone(), read_scene(path)?));
+        Ok(Self {
+            project: project(args, |_| {})?,
+            scene: args.scene.as_ref().map(said).transpose()?,
+        })
     }
 }
 
@@ -191,11 +208,40 @@ impl Spectrum {
     }
 }
 
+/// A scene file that was named where volumes are is the scene to start from.
+fn find_scene(args: &mut ProjectArgs) -> Result<(), CliError> {
+    let is_scene = |path: &PathBuf| {
+        let ending = path.extension();
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+    };
+    let Some(at) = args.files.iter().position(is_scene) else {
+        return Ok(());
+    };
+    let scene = args.files.remove(at);
+    let other = match (&args.scene, &args.preset) {
+        _ if args.files.iter().any(is_scene) => "another one",
+        (Some(_), _) => "--scene",
+        (_, Some(_)) => "--preset",
+        _ => {
+            args.scene = Some(scene);
+            return Ok(());
+        }
+    };
+    Err(CliError::Usage(format!(
+        "{}: a scene file cannot be used with {other}; name one scene to start from",
+        scene.display()
+    )))
+}
+
+fn read_scene(path: &Path) -> Result<Project, CliError> {
+    Project::read(path).map_err(CliError::scene)
+}
+
 /// Scene file or preset, then flags, then `--set` in its order; the later wins.
 fn project(args: &ProjectArgs, flags: impl FnOnce(&mut Project)) -> Result<Project, CliError> {
     let preset = args.preset.as_deref().and_then(Preset::named);
     let mut project = match (&args.scene, preset) {
-        (Some(path), _) => Project::read(path).map_err(CliError::scene)?,
+        (Some(path), _) => read_scene(path)?,
         (None, Some(preset)) => preset.project(),
         (None, None) => Project::default(),
     };

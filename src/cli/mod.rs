@@ -55,7 +55,7 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
 impl Command {
     fn run(self) -> Result<(), CliError> {
         match self {
-            Self::Window(project) => window::run(*project),
+            Self::Window(window) => window.run(),
             Self::Render(render) => render.run(),
             Self::Study(study) => study.run(),
             Self::Info(info) => info.run(),

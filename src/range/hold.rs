@@ -1,20 +1,17 @@
 //! What one frame takes from its own file, set as keys so that others take the same.
 
 use crate::math::Aabb;
+use crate::project::settings::VolumeSettings;
 use crate::project::{BackdropKind, CameraSettings, FieldSettings, Job, Project, Up};
 use crate::scene::flame;
 use crate::volume::{FieldKind, FieldMap, FieldMaps, Producer, UpAxis};
 
-/// Whether a project takes nothing from its file's own peaks any more: every field is there with all its numbers, or set away.
-pub fn is_held(project: &Project) -> bool {
-    FieldKind::ALL.into_iter().all(|kind| {
+/// Whether a job of a project takes nothing from its file's own peaks: every field that it maps is set with all its numbers.
+pub fn is_held(project: &Project, job: &Job) -> bool {
+    job.flame.maps.iter().all(|(kind, _)| {
         let field = project.volume.field(kind);
         let numbers = [field.scale, field.offset, field.min, field.max];
-        match field.grid.as_deref() {
-            Some("") => true,
-            Some(_) => numbers.iter().all(Option::is_some),
-            None => false,
-        }
+        field.grid.is_some() && numbers.iter().all(Option::is_some)
     })
 }
 
@@ -106,34 +103,50 @@ impl Taken {
         }
     }
 
-    /// Sets it all in a project, for pictures of its size. What is set by hand stays; a field that was not made from anything
-    /// stays away.
+    /// Sets it all in a project, for pictures of its size. What is set by hand stays, and a field that was not made from
+    /// anything stays as it is: another frame may have it.
     pub fn hold(&self, project: &mut Project) {
-        let volume = &mut project.volume;
+        if self.maps.iter().next().is_some() {
+            self.hold_fields(&mut project.volume);
+        }
+        if !self.fire.is_empty() {
+            self.hold_view(project);
+        }
+    }
+
+    /// The same for frames that were all looked at: a field that none of them has stays away.
+    pub(super) fn hold_all(&self, project: &mut Project) {
+        self.hold(project);
+        for kind in FieldKind::ALL {
+            if self.maps.get(kind).is_none() {
+                project.volume.field_mut(kind).grid = Some(String::new());
+            }
+        }
+    }
+
+    fn hold_fields(&self, volume: &mut VolumeSettings) {
         volume.producer = self.producer;
         volume.up = match self.up {
             UpAxis::Y => Up::Y,
             UpAxis::Z => Up::Z,
         };
         volume.voxel_size_m = volume.voxel_size_m.or(self.voxel_size_m);
-        for kind in FieldKind::ALL {
+        for (kind, map) in self.maps.iter() {
             let field = volume.field_mut(kind);
-            match self.maps.get(kind) {
-                Some(map) => {
-                    *field = FieldSettings {
-                        grid: Some(map.grid.clone()),
-                        scale: Some(map.scale),
-                        offset: Some(map.offset),
-                        min: Some(map.min),
-                        max: Some(map.max),
-                    }
-                }
-                None => field.grid = Some(String::new()),
+            if field.grid.as_ref().is_some_and(|grid| *grid != map.grid) {
+                continue;
             }
+            *field = FieldSettings {
+                grid: Some(map.grid.clone()),
+                scale: field.scale.or(Some(map.scale)),
+                offset: field.offset.or(Some(map.offset)),
+                min: field.min.or(Some(map.min)),
+                max: field.max.or(Some(map.max)),
+            };
         }
-        if self.fire.is_empty() {
-            return;
-        }
+    }
+
+    fn hold_view(&self, project: &mut Project) {
         let camera = project.camera(&self.fire, project.render.size);
         project.camera = CameraSettings::from(&camera);
         let defaults = project.stage.defaults(&self.fire, &camera);

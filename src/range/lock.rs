@@ -71,7 +71,7 @@ pub fn lock(
     }
     let assumed = hottest.flaws.clone();
     let mut project = project.clone();
-    taken.hold(&mut project);
+    taken.hold_all(&mut project);
 
     let mut brightest: Option<(f64, &Look)> = None;
     let mut decisions: Vec<Decision> = Vec::new();

@@ -340,14 +340,15 @@ impl Pilot {
 
     fn choose_from(&self, all: Vec<Numbers>, target_de: f64) -> Option<Numbers> {
         let all: Vec<Choice> = all.into_iter().map(|it| self.choice(it)).collect();
-        let off = |choice: &Choice| choice.error.all.de95;
-        let good = all.iter().filter(|it| off(it) <= target_de);
-        let cheapest = good.min_by(|one, other| one.work.total_cmp(&other.work));
-        let nearest = all.iter().min_by(|one, other| {
+        let off = |choice: &Choice| choice.error.all.de95.max(target_de);
+        // Light from all sides was worked out for one set, and would take longer for another than that saves in the march.
+        let is_lost = |choice: &Choice| self.needs_fields && choice.numbers.wavelengths != self.set;
+        let best = all.iter().min_by(|one, other| {
             let by_error = off(one).total_cmp(&off(other));
-            by_error.then(one.work.total_cmp(&other.work))
+            let by_loss = is_lost(one).cmp(&is_lost(other));
+            by_error.then(by_loss).then(one.work.total_cmp(&other.work))
         });
-        cheapest.or(nearest).map(|choice| choice.numbers)
+        best.map(|choice| choice.numbers)
     }
 
     /// What was tried of these numbers, or the next longer step and fewer rays.

@@ -93,17 +93,6 @@ fn the_error_of_each_pixel_is_measured_and_then_said_to_be() {
     panic!("nothing was measured");
 }
 
-fn wait_for(harness: &mut Harness<'_, App>, label: &str) {
-    for _ in 0..1000 {
-        harness.run_steps(1);
-        if harness.query_by_label_contains(label).is_some() {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("never: {label}");
-}
-
 #[test]
 fn a_snapshot_is_wiped_against_and_goes_back() {
     let mut harness = small();

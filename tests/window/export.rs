@@ -39,18 +39,6 @@ fn set_number(harness: &mut Harness<'_, App>, label: &str, value: u32) {
     harness.run_steps(2);
 }
 
-/// Draws frames until there are these words.
-fn wait_for(harness: &mut Harness<'_, App>, words: &str) {
-    for _ in 0..6000 {
-        harness.run_steps(1);
-        if harness.query_by_label_contains(words).is_some() {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("never said: {words}");
-}
-
 /// Size, pixels as levels of 8 bits, and the scene of a PNG.
 pub(super) fn read_png(path: &Path) -> ([u32; 2], Vec<u8>, Project) {
     let bytes = std::fs::read(path).expect("the picture was written");

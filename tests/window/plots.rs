@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable};
 use sootlight::app::App;
 use sootlight::project::Project;
 
-use super::{set_slider, settle, window_of};
+use super::{set_slider, settle, wait_for, window_of};
 
 /// A window with room for the plots beside the fire.
 const SIZE: [f32; 2] = [1100.0, 720.0];
@@ -43,17 +43,6 @@ fn click(harness: &mut Harness<'_, App>, at: Pos2) {
         harness.run_steps(1);
     }
     harness.run_steps(2);
-}
-
-/// Goes on until a label is there: what a pixel's light needs is worked out beside the window.
-fn wait_for(harness: &mut Harness<'_, App>, words: &str) {
-    for _ in 0..500 {
-        if harness.query_by_label_contains(words).is_some() {
-            return;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-        harness.run_steps(1);
-    }
 }
 
 fn label_with(harness: &mut Harness<'_, App>, words: &str) -> String {

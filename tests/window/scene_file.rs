@@ -98,6 +98,34 @@ fn a_scene_is_saved_where_it_is_told_and_opened_as_it_was() {
 }
 
 #[test]
+fn a_scene_that_was_named_is_where_it_is_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("named.toml");
+    std::fs::write(&path, "[soot]\namount = 2.5\n").unwrap();
+    let said = Project::read(&path).unwrap();
+    // As with `--set soot.amount=3` beside it: that is in no file yet.
+    let mut project = said.clone();
+    project.soot.amount = 3.0;
+    let mut harness = Harness::builder()
+        .with_size([900.0, 600.0])
+        .build_eframe(|creation| {
+            let mut app = app(creation, project);
+            app.is_of_scene(&path, said);
+            app
+        });
+    settle(&mut harness);
+    assert!(harness.state().is_unsaved());
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    wait_until_saved(&mut harness);
+    assert!(
+        harness.query_by_label("Scene file").is_none(),
+        "it is known"
+    );
+    assert_eq!(Project::read(&path).unwrap().soot.amount, 3.0);
+    assert!(!harness.state().is_unsaved());
+}
+
+#[test]
 fn a_scene_that_cannot_be_written_stays_open_and_unsaved() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = window_of(Project::default(), [900.0, 600.0]);

@@ -84,17 +84,78 @@ fn a_step_holds_what_would_flicker_and_passes_a_bad_frame_over() {
     assert_eq!(harness.state().frame(), Some(4));
     assert!(of(harness.state()) == before);
 
-    // Frames are no steps of undo: one takes back that things are held, and the frame stays.
+    // Neither frames nor what is held over them are steps of undo.
+    assert!(!harness.state().document().can_undo());
+    // What a person did before comes back as it was, on the frame on show and with the same held.
+    let document = harness.state_mut().document_mut();
+    document.change(|document| document.project.soot.amount = 2.0);
+    harness.run_steps(1);
+    settle(&mut harness);
+    press(&mut harness, "Next frame");
     harness.state_mut().document_mut().undo();
     harness.run_steps(2);
     settle(&mut harness);
-    assert_eq!(
-        harness.state().document().project.volume.temperature.scale,
-        None
-    );
-    assert!(!harness.state().document().can_undo());
-    assert_eq!(harness.state().frame(), Some(4));
-    harness.get_by_label("fire_04.vdb");
+    assert_eq!(harness.state().document().project.soot.amount, 1.0);
+    assert!(of(harness.state()) == before);
+    assert_eq!(harness.state().frame(), Some(6));
+    harness.get_by_label("fire_06.vdb");
+}
+
+#[test]
+fn what_a_frame_before_the_fire_has_not_is_not_lost_to_the_others() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |number: u32, grids: &[(&str, f32)]| {
+        write_vdb(&folder.path().join(format!("fire{number}.vdb")), grids);
+    };
+    write(1, &[("density", 0.2)]);
+    write(2, &[("density", 0.3), ("flame", 1.0), ("temperature", 1.0)]);
+    write(3, &[("density", 0.3), ("flame", 1.0), ("temperature", 1.5)]);
+    let mut harness = window_on(&folder.path().join("fire1.vdb"));
+    let flame = |app: &App| app.job().expect("a job").flame.maps.flame.clone();
+    let heat = |app: &App| app.job().expect("a job").flame.maps.temperature.clone();
+    assert!(flame(harness.state()).is_none());
+    press(&mut harness, "Next frame");
+    let (lit, hot) = (flame(harness.state()), heat(harness.state()));
+    assert!(lit.is_some(), "the fire was set away");
+    press(&mut harness, "Next frame");
+    assert_eq!(harness.state().frame(), Some(3));
+    assert!(flame(harness.state()) == lit && heat(harness.state()) == hot);
+}
+
+#[test]
+fn a_range_that_pauses_goes_on_when_the_window_is_to_close_after_it() {
+    let folder = frames();
+    let mut harness = window_on(&folder.path().join("fire_01.vdb"));
+    harness.get_by_label("Export…").click_accesskit();
+    harness.run_steps(4);
+    let name = folder.path().join("fire_01.exr");
+    let field = harness.get_by_role_and_label(Role::TextInput, "File");
+    field.set_text_value_accesskit(name.to_str().expect("a path of letters"));
+    harness.run_steps(2);
+    harness.get_by_label("Export range").click_accesskit();
+    harness.run_steps(3);
+    harness.get_by_label("Pause export").click_accesskit();
+    harness.run_steps(2);
+    harness.get_by_label("Go on exporting");
+    assert!(!export::ask_to_close(&mut harness));
+    harness.run_steps(3);
+    harness
+        .get_by_label("Close when it is done")
+        .click_accesskit();
+    let root = egui::ViewportId::ROOT;
+    let closes = |harness: &Harness<'_, App>| {
+        let commands = &harness.output().viewport_output[&root].commands;
+        commands.contains(&egui::ViewportCommand::Close)
+    };
+    for _ in 0..6000 {
+        harness.run_steps(1);
+        if closes(&harness) {
+            assert!(folder.path().join("fire_06.exr").exists());
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("it never closed");
 }
 
 #[test]
@@ -197,18 +258,6 @@ fn a_folder_opens_its_first_frame_and_a_hand_scrubs() {
     harness.run_steps(2);
     settle(&mut harness);
     harness.get_by_label("Play");
-}
-
-/// Draws frames until there are these words.
-fn wait_for(harness: &mut Harness<'_, App>, words: &str) {
-    for _ in 0..6000 {
-        harness.run_steps(1);
-        if harness.query_by_label_contains(words).is_some() {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("never said: {words}");
 }
 
 #[test]

@@ -161,6 +161,18 @@ impl Document {
         Ok(())
     }
 
+    /// Sets what nobody chose, so that other frames are shown alike: no step of undo, and what it would bring back of the open
+    /// volume holds it, too.
+    pub fn hold(&mut self, hold: impl Fn(&mut Project)) {
+        hold(&mut self.project);
+        let open = self.open.clone();
+        self.history.for_each(|step| {
+            if is_same(step.open.as_ref(), open.as_ref()) {
+                hold(&mut step.project);
+            }
+        });
+    }
+
     /// Gives up on what is lacking, until something else is wanted or open.
     pub fn do_without_the_rest(&mut self) {
         self.given_up = self.lacking();

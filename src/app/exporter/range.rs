@@ -58,10 +58,9 @@ impl Wish {
         on_show: Option<Effects>,
     ) -> Option<RangeOrder> {
         let mut project = self.project(document)?;
-        if !range::is_held(&project) {
-            Taken::of(&document.project, document.last_job()?).hold(&mut project);
-        }
-        project.effects = on_show.unwrap_or(project.effects);
+        Taken::of(&document.project, document.last_job()?).hold(&mut project);
+        // What another frame calls for beside them is found when all are looked at.
+        project.effects = on_show.map_or(project.effects, |shown| project.effects.computing(shown));
         if let Some(metering) = metering {
             project.view.hold(&metering);
         }

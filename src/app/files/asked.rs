@@ -1,9 +1,10 @@
-//! A name for a file to be written, asked for with the desktop's dialog on a thread of its own.
+//! A file that is asked for with the desktop's dialog, on a thread of its own.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use egui::Context;
+use rfd::FileDialog;
 
 use super::{Answer, answer};
 
@@ -15,10 +16,12 @@ pub(in crate::app) struct Asked {
 }
 
 impl Asked {
-    /// Asks with a dialog that begins at a file, unless one is open.
+    /// Asks with a dialog that begins at a file, unless one is open: for one to be written ([`FileDialog::save_file`]) or one
+    /// that is there ([`FileDialog::pick_file`]).
     pub(in crate::app) fn ask(
         &mut self,
-        mut dialog: rfd::FileDialog,
+        mut dialog: FileDialog,
+        way: fn(FileDialog) -> Option<PathBuf>,
         near: Option<&Path>,
         ctx: &Context,
     ) {
@@ -39,7 +42,7 @@ impl Asked {
             .name("sootlight-dialog".into())
             .spawn(move || {
                 // The window may be gone.
-                let _ = sender.send(answer(|| dialog.save_file()));
+                let _ = sender.send(answer(|| way(dialog)));
                 ctx.request_repaint();
             });
         match spawned {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::app::words::with_causes;
-use crate::project::{Preset, Project};
+use crate::project::Project;
 use crate::sequence::{Sequence, SequenceError};
 use crate::volume::{self, BuiltIn, Limits, Volume, VolumeError, Wanted, Watch};
 
@@ -26,8 +26,8 @@ pub(in crate::app) enum Request {
     Files(Vec<PathBuf>, Wanted),
     /// The open volume's files once more, with grids that were left unread.
     Lacking(Arc<Volume>, Wanted),
-    /// A flame that needs no file, instead of what is open, burning as in a preset if one was chosen.
-    OtherBuiltIn(BuiltIn, Option<&'static Preset>),
+    /// A flame that needs no file, instead of what is open, burning as in a scene if one was chosen.
+    OtherBuiltIn(BuiltIn, Option<Arc<Project>>),
     /// A file that may bring the missing field of the open volume, or else replaces it.
     Partner(Arc<Volume>, PathBuf),
 }
@@ -43,8 +43,8 @@ pub(in crate::app) enum Outcome {
     Opened(Arc<Volume>, Arc<Project>, PathBuf),
     /// A volume that takes the place of the open one.
     Replaced(Arc<Volume>),
-    /// One that does so and burns as in a preset.
-    Burning(Arc<Volume>, &'static Preset),
+    /// One that does so and burns as in a scene.
+    Burning(Arc<Volume>, Arc<Project>),
     /// The open volume with a field that it lacked.
     Completed {
         /// What was open when this was asked for.
@@ -125,9 +125,9 @@ pub(super) fn load(mut request: Request, limits: &Limits, watch: &Watch) -> Outc
         Request::OtherBuiltIn(flame, None) => flame
             .volume_watched(watch)
             .map(|v| Outcome::Replaced(v.into())),
-        Request::OtherBuiltIn(flame, Some(preset)) => flame
+        Request::OtherBuiltIn(flame, Some(scene)) => flame
             .volume_watched(watch)
-            .map(|v| Outcome::Burning(v.into(), preset)),
+            .map(|v| Outcome::Burning(v.into(), Arc::clone(scene))),
         Request::Project(paths, wanted) => open(paths, wanted).map(|v| Outcome::Shown(v.into())),
         Request::Session(project) => {
             let volume = match project.volume.path.as_slice() {

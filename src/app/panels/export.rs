@@ -5,13 +5,12 @@ mod size;
 mod target;
 
 use egui::{
-    Align2, Button, Context, DragValue, Grid, Label, ProgressBar, RichText, ScrollArea, TextEdit,
-    Ui, Window,
+    Button, Context, DragValue, Grid, Label, ProgressBar, RichText, ScrollArea, TextEdit, Ui,
 };
 
 use self::size::Size;
 use self::target::Target;
-use super::{Command, short};
+use super::{Command, centred, short};
 use crate::app::exporter::{Exactness, Exporter, Outcome, Progress, Wish};
 use crate::app::theme::{ERROR, IDLE, WARNING};
 use crate::app::timeline::Timeline;
@@ -65,19 +64,14 @@ impl ExportPanel {
             return;
         }
         let whole = ctx.content_rect();
-        Window::new("Export")
-            .collapsible(false)
-            .pivot(Align2::CENTER_CENTER)
-            .default_pos(whole.center())
-            .auto_sized()
-            .show(ctx, |ui| {
-                ScrollArea::vertical()
-                    .max_height(whole.height() - BAR)
-                    .show(ui, |ui| {
-                        ui.set_width(WIDTH.min(whole.width() - 40.0));
-                        self.contents(ui, document, (exporter, timeline), canvas, commands);
-                    });
-            });
+        centred(ctx, "Export").show(ctx, |ui| {
+            ScrollArea::vertical()
+                .max_height(whole.height() - BAR)
+                .show(ui, |ui| {
+                    ui.set_width(WIDTH.min(whole.width() - 40.0));
+                    self.contents(ui, document, (exporter, timeline), canvas, commands);
+                });
+        });
     }
 
     fn contents(

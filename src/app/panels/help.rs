@@ -1,7 +1,8 @@
 //! One page of everything that keys and hands do.
 
-use egui::{Align2, Context, Grid, RichText, ScrollArea, Ui, Window, vec2};
+use egui::{Context, Grid, RichText, ScrollArea, Ui, vec2};
 
+use super::centred;
 use crate::app::theme::IDLE;
 
 /// Height of the window's title and margins in points, with some to spare.
@@ -80,12 +81,8 @@ const HANDS: &[Section] = &[
 /// Draws the page if it is open.
 pub(in crate::app) fn show(ctx: &Context, is_open: &mut bool) {
     let whole = ctx.content_rect();
-    Window::new("Keys and hands")
+    centred(ctx, "Keys and hands")
         .open(is_open)
-        .collapsible(false)
-        .pivot(Align2::CENTER_CENTER)
-        .default_pos(whole.center())
-        .auto_sized()
         .show(ctx, |ui| {
             ui.set_width(WIDTH.min(whole.width() - 40.0));
             ScrollArea::vertical()

@@ -23,7 +23,7 @@ mod volume;
 
 use std::path::PathBuf;
 
-use egui::{CollapsingHeader, Frame, Panel, RichText, ScrollArea, Ui};
+use egui::{Align2, CollapsingHeader, Context, Frame, Panel, RichText, ScrollArea, Ui, Window};
 
 pub(super) use overlay::overlay;
 use presets::PresetsMenu;
@@ -31,6 +31,7 @@ pub(super) use status::status;
 
 use super::Document;
 use super::accuracy::Told;
+use super::closing::Close;
 use super::exporter::Wish;
 use super::maps::Map;
 use super::recent::Recent;
@@ -106,14 +107,8 @@ pub(super) enum Command {
     PauseExport(bool),
     /// Stop exporting.
     CancelExport,
-    /// Close the window as soon as the export is done.
-    CloseAfterExport,
-    /// Close the window, whatever is lost with it.
-    CloseNow,
-    /// Stop the export, then close the window.
-    StopAndClose,
-    /// Keep the window open.
-    KeepOpen,
+    /// Close the window, or keep it open, as was answered.
+    Close(Close),
     /// Save what is set where it was saved before, or ask where.
     Save,
     /// Ask where to save what is set.
@@ -122,8 +117,6 @@ pub(super) enum Command {
     SaveTo(PathBuf),
     /// Save nothing.
     CloseSave,
-    /// Save what is set, then close the window.
-    CloseAfterSave,
     /// Put all that is set on the clipboard, as a scene's text.
     CopySettings,
     /// Set what is on the clipboard.
@@ -240,6 +233,15 @@ impl Panels {
                 });
             });
     }
+}
+
+/// A window in the middle that is as large as what is in it.
+fn centred<'a>(ctx: &Context, title: &'a str) -> Window<'a> {
+    Window::new(title)
+        .collapsible(false)
+        .pivot(Align2::CENTER_CENTER)
+        .default_pos(ctx.content_rect().center())
+        .auto_sized()
 }
 
 /// A section that folds.

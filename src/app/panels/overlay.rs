@@ -7,9 +7,10 @@ use egui::{
 
 use super::Command;
 use super::legend::{self, Legend};
+use crate::app::App;
+use crate::app::closing::{Close, Closing};
 use crate::app::opening::is_picture;
 use crate::app::theme::ERROR;
-use crate::app::{App, Closing};
 use crate::project::Darkness;
 
 /// Height of a line of the drop target in points.
@@ -33,13 +34,13 @@ pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &m
     }
     notes(ui, app, canvas, commands);
     match app.closing {
-        Closing::Asked => ask_before_closing(
+        Closing::AskedExporting => ask_before_closing(
             ui,
             "An export is running. If the window closes now, nothing will be written.",
             [
-                ("Close when it is done", Command::CloseAfterExport),
-                ("Stop it and close", Command::StopAndClose),
-                ("Go on working", Command::KeepOpen),
+                ("Close when it is done", Command::Close(Close::AfterExport)),
+                ("Stop it and close", Command::Close(Close::StopExport)),
+                ("Go on working", Command::Close(Close::Not)),
             ],
             commands,
         ),
@@ -47,9 +48,9 @@ pub(in crate::app) fn overlay(ui: &mut Ui, app: &App, canvas: Rect, commands: &m
             ui,
             "What is set is in no file. If the window closes now, it is lost.",
             [
-                ("Save and close", Command::CloseAfterSave),
-                ("Close without saving", Command::CloseNow),
-                ("Go on working", Command::KeepOpen),
+                ("Save and close", Command::Close(Close::AfterSave)),
+                ("Close without saving", Command::Close(Close::Now)),
+                ("Go on working", Command::Close(Close::Not)),
             ],
             commands,
         ),

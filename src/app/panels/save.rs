@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Align2, Context, Key, Label, RichText, TextEdit, Window};
+use egui::{Context, Key, Label, RichText, TextEdit};
 
-use super::Command;
+use rfd::FileDialog;
+
+use super::{Command, centred};
 use crate::app::Document;
 use crate::app::files::{Asked, paths_of};
 use crate::app::scene_file::{ENDING, is_scene};
@@ -70,11 +72,7 @@ impl SavePanel {
             self.text = path.display().to_string();
         }
         let whole = ctx.content_rect();
-        Window::new("Save the scene")
-            .collapsible(false)
-            .pivot(Align2::CENTER_CENTER)
-            .default_pos(whole.center())
-            .auto_sized()
+        centred(ctx, "Save the scene")
             .show(ctx, |ui| {
                 ui.set_width(WIDTH.min(whole.width() - 40.0));
                 let (mut saves, mut enters) = (false, false);
@@ -83,11 +81,11 @@ impl SavePanel {
                         .button("Choose…")
                         .on_hover_text("Choose with the desktop's dialog.");
                     if choose.clicked() {
-                        let dialog = rfd::FileDialog::new()
+                        let dialog = FileDialog::new()
                             .set_title("Save the scene")
                             .add_filter("Scenes", &[ENDING]);
                         let near = self.path().and_then(|path| std::path::absolute(path).ok());
-                        self.dialog.ask(dialog, near.as_deref(), ctx);
+                        self.dialog.ask(dialog, FileDialog::save_file, near.as_deref(), ctx);
                     }
                     let field = TextEdit::singleline(&mut self.text).desired_width(f32::INFINITY);
                     let field = ui.add(field).accessible_name("Scene file");

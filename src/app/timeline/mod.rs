@@ -19,6 +19,7 @@ pub(super) use strip::strip;
 use self::play::Range;
 use super::App;
 use super::exporter::Playing;
+use crate::project::Job;
 use crate::range::{self, Taken};
 use crate::sequence::Sequence;
 use crate::volume::Volume;
@@ -246,8 +247,10 @@ impl App {
                 }
             }
         }
-        let is_in_use =
-            open.due.is_some() || open.wanted.is_some() || range::is_held(&self.document.project);
+        let is_held = |job: &Job| range::is_held(&self.document.project, job);
+        let is_in_use = open.due.is_some()
+            || open.wanted.is_some()
+            || self.document.last_job().is_some_and(is_held);
         if is_in_use {
             // Nothing is read ahead for somebody who looks at one file.
             let ahead = open.ahead(loops);
@@ -297,31 +300,37 @@ impl App {
         }
     }
 
+    /// Holds over all frames what the one on show takes from its own file, and the effects that it called for.
+    fn hold_what_is_shown(&mut self) {
+        let Some(job) = self.document.last_job() else {
+            return;
+        };
+        let was_held = range::is_held(&self.document.project, job);
+        let taken = Taken::of(&self.document.project, job);
+        let shown = self.effects_on_show();
+        let assumed: Vec<String> = job.flaws.iter().map(String::from).collect();
+        self.by_itself(|app| {
+            app.document.hold(|project| {
+                taken.hold(project);
+                project.effects = shown.map_or(project.effects, |it| project.effects.computing(it));
+            });
+        });
+        if let (Some(volume), Some(current)) = (self.document.volume(), self.timeline.current())
+            && !was_held
+            && let Ok(held) = self.document.project.job(volume)
+        {
+            let told: Vec<&str> = held.flaws.iter().collect();
+            let newly = assumed
+                .into_iter()
+                .filter(|words| !told.contains(&words.as_str()))
+                .map(|words| format!("{words} (in frame {current}, and so in all)"));
+            self.timeline.assumed.extend(newly);
+        }
+    }
+
     /// Shows another frame in place of the one on show, with what would flicker held.
     fn show_frame(&mut self, volume: Arc<Volume>) -> Result<(), String> {
-        if !range::is_held(&self.document.project)
-            && let Some(job) = self.document.last_job()
-        {
-            let taken = Taken::of(&self.document.project, job);
-            let effects = self.effects_on_show();
-            let assumed: Vec<String> = job.flaws.iter().map(String::from).collect();
-            self.by_itself(|app| {
-                app.document.change(|document| {
-                    taken.hold(&mut document.project);
-                    document.project.effects = effects.unwrap_or(document.project.effects);
-                });
-            });
-            if let (Some(volume), Some(current)) = (self.document.volume(), self.timeline.current())
-                && let Ok(held) = self.document.project.job(volume)
-            {
-                let told: Vec<&str> = held.flaws.iter().collect();
-                self.timeline.assumed = assumed
-                    .into_iter()
-                    .filter(|words| !told.contains(&words.as_str()))
-                    .map(|words| format!("{words} (in frame {current}, and so in all)"))
-                    .collect();
-            }
-        }
+        self.hold_what_is_shown();
         // What was measured on a coarse picture is not measured again on another frame.
         self.meter.settle();
         self.document

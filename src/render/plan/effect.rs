@@ -162,6 +162,21 @@ impl Effects {
         }
     }
 
+    /// The same, with what was automatic computed where it is on in a picture that was shown: another frame may call for more,
+    /// but what was there does not go.
+    #[must_use]
+    pub fn computing(mut self, shown: Self) -> Self {
+        for effect in Effect::ALL {
+            if let Some(switch) = self.switch_mut(effect)
+                && *switch == Switch::Auto
+                && effect.switch(&shown) == Switch::On
+            {
+                *switch = Switch::On;
+            }
+        }
+        self
+    }
+
     /// The switch of an effect; `None` where it has none.
     pub fn switch_mut(&mut self, effect: Effect) -> Option<&mut Switch> {
         match effect {

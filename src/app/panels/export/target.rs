@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use egui::Context;
+use rfd::FileDialog;
 
 use crate::app::files::{Asked, paths_of};
 use crate::export::Format;
@@ -115,11 +116,12 @@ impl Target {
 
     /// Asks with the desktop's dialog, on a thread of its own.
     pub(super) fn ask(&mut self, ctx: &Context) {
-        let dialog = rfd::FileDialog::new()
+        let dialog = FileDialog::new()
             .set_title("Export the picture")
             .add_filter("Pictures", &["png", "exr"]);
         let near = self.path().and_then(|path| std::path::absolute(path).ok());
-        self.dialog.ask(dialog, near.as_deref(), ctx);
+        self.dialog
+            .ask(dialog, FileDialog::save_file, near.as_deref(), ctx);
     }
 
     /// Takes in what was chosen.

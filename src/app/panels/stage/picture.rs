@@ -1,11 +1,11 @@
 //! The picture on the backdrop: a path that is typed or chosen.
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use egui::{Context, Key, RichText, TextEdit, Ui};
+use egui::{Key, RichText, TextEdit, Ui};
+use rfd::FileDialog;
 
-use crate::app::files::{Answer, answer, paths_of};
+use crate::app::files::{Asked, paths_of};
 use crate::app::panels::knob::name;
 use crate::app::theme::WARNING;
 
@@ -15,16 +15,13 @@ pub(super) struct PicturePath {
     text: String,
     /// The path that the field was filled with.
     shown: Option<PathBuf>,
-    /// The dialog that is open.
-    dialog: Option<Receiver<Answer<PathBuf>>>,
-    /// Whether this desktop turned out to have no dialog.
-    no_dialog: bool,
+    dialog: Asked,
 }
 
 impl PicturePath {
     /// Draws the field and its button.
     pub(super) fn show(&mut self, ui: &mut Ui, picture: &mut Option<PathBuf>) {
-        if let Some(chosen) = self.receive() {
+        if let Some(chosen) = self.dialog.answered() {
             *picture = Some(chosen);
         }
         // An undo or a dropped file changes the path from outside.
@@ -38,7 +35,10 @@ impl PicturePath {
                        window. Double-click the name: none.";
             let name = name(ui, "PNG file", tip);
             if ui.button("Choose…").on_hover_text(tip).clicked() {
-                self.ask(ui.ctx());
+                let dialog = FileDialog::new()
+                    .set_title("A picture behind the fire")
+                    .add_filter("PNG pictures", &["png"]);
+                self.dialog.ask(dialog, FileDialog::pick_file, None, ui.ctx());
             }
             let field = TextEdit::singleline(&mut self.text)
                 .hint_text("a path, then Enter")
@@ -51,47 +51,9 @@ impl PicturePath {
                 *picture = None;
             }
         });
-        if self.no_dialog {
+        if self.dialog.has_none() {
             let words = "This desktop offers no file dialog: type a path.";
             ui.label(RichText::new(words).small().color(WARNING));
-        }
-    }
-
-    /// Asks with the desktop's dialog, on a thread of its own.
-    fn ask(&mut self, ctx: &Context) {
-        if self.dialog.is_some() {
-            return;
-        }
-        let dialog = rfd::FileDialog::new()
-            .set_title("A picture behind the fire")
-            .add_filter("PNG pictures", &["png"]);
-        let (sender, receiver) = channel();
-        let ctx = ctx.clone();
-        let spawned = std::thread::Builder::new()
-            .name("sootlight-dialog".into())
-            .spawn(move || {
-                // The window may be gone.
-                let _ = sender.send(answer(|| dialog.pick_file()));
-                ctx.request_repaint();
-            });
-        match spawned {
-            Ok(_) => self.dialog = Some(receiver),
-            Err(_) => self.no_dialog = true,
-        }
-    }
-
-    /// What was chosen, once somebody did.
-    fn receive(&mut self) -> Option<PathBuf> {
-        let answer = match self.dialog.as_ref()?.try_recv() {
-            Ok(answer) => answer,
-            Err(TryRecvError::Empty) => return None,
-            Err(TryRecvError::Disconnected) => Answer::NoDialog,
-        };
-        self.dialog = None;
-        self.no_dialog = answer == Answer::NoDialog;
-        match answer {
-            Answer::Chosen(path) => Some(path),
-            Answer::Closed | Answer::NoDialog => None,
         }
     }
 }
