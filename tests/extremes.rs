@@ -91,6 +91,7 @@ const ENDS: &[(&str, [&str; 2])] = &[
     ("effects.smoke", ["off", "on"]),
     ("camera.eye", ["[0, 0, 1e-6]", "[1e6, 1e6, 1e6]"]),
     ("camera.fov_deg", ["0.01", "179"]),
+    ("camera.roll_deg", ["-180", "180"]),
     ("render.quality", ["draft", "reference"]),
     ("render.step_voxels", ["0.01", "64"]),
     ("render.target_error", ["0.01", "100"]),

@@ -3,6 +3,7 @@
 use glam::{DAffine3, DVec3, IVec3};
 use sootlight::math::Ray;
 use sootlight::physics::blackbody;
+use sootlight::render::along::{Along, DEPTH_NM};
 use sootlight::render::march::Marcher;
 use sootlight::render::{Cancel, Plan, Settings, Switch, render_still};
 use sootlight::scene::{Camera, Scene, WavelengthSet};
@@ -47,6 +48,7 @@ fn scene_of(volume: Volume) -> Scene {
         target: DVec3::new(0.25, 0.0, 0.25),
         up: DVec3::Z,
         fov_deg: 30.0,
+        roll_deg: 0.0,
     };
     common::scene(volume, camera)
 }
@@ -58,6 +60,7 @@ fn along_the_slab() -> Camera {
         target: DVec3::ZERO,
         up: DVec3::Z,
         fov_deg: 1.0,
+        roll_deg: 0.0,
     }
 }
 
@@ -144,6 +147,39 @@ fn a_linear_temperature_slab_comes_to_its_golden_values() {
         compared += 1;
     }
     assert!(compared >= 10, "only {compared} rows compared");
+}
+
+#[test]
+fn what_lies_along_a_ray_is_what_the_slab_was_made_of() {
+    let (near, far, soot) = (900.0, 1800.0, 3e-6);
+    let slab = common::slab(64, EDGE_M, |_| soot, |depth| near + (far - near) * depth);
+    let scene = common::scene(slab, along_the_slab());
+    let along = Along::new(&scene, [1, 1], [0.5, 0.5]).unwrap();
+    let [scattered, _] = scene.flame.scattering_per_sample(DEPTH_NM);
+    let extinction = scene.flame.absorption_per_sample(DEPTH_NM) + scattered;
+    let expected = soot * EDGE_M * extinction;
+    assert!(
+        (along.depth() / expected - 1.0).abs() < 1e-6,
+        "{} instead of {expected}",
+        along.depth()
+    );
+    let eye_m = -along_the_slab().eye.y;
+    for place in &along.places {
+        let depth = (place.distance_m - eye_m) / EDGE_M;
+        let kelvin = near + (far - near) * depth.clamp(0.5 / 64.0, 1.0 - 0.5 / 64.0);
+        assert!(
+            (place.temperature_k / kelvin - 1.0).abs() < 1e-5,
+            "{place:?} {kelvin}"
+        );
+        assert!((place.soot / soot - 1.0).abs() < 1e-6);
+    }
+    let hottest = along.hottest().unwrap();
+    assert!(hottest.distance_m > eye_m + 0.9 * EDGE_M);
+    // Past the fire there is nothing.
+    let mut scene = scene;
+    scene.camera.target = DVec3::new(5.0, 0.0, 0.0);
+    let aside = Along::new(&scene, [1, 1], [0.5, 0.5]).unwrap();
+    assert_eq!((aside.depth(), aside.hottest()), (0.0, None));
 }
 
 #[test]
@@ -258,6 +294,7 @@ fn an_eye_inside_the_fire_sees_what_is_before_it() {
         target: DVec3::new(0.25, 1.0, 0.25),
         up: DVec3::Z,
         fov_deg: 20.0,
+        roll_deg: 0.0,
     };
     let scene = common::scene(volume, inside);
     let (radiance, _) = middle_ray(&scene, 0.5, RGB_NM);

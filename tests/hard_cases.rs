@@ -86,6 +86,7 @@ const ALONG: Camera = Camera {
     target: DVec3::ZERO,
     up: DVec3::Z,
     fov_deg: 1.0,
+    roll_deg: 0.0,
 };
 
 fn scene_of(volume: Volume, assignments: &[&str]) -> Scene {

@@ -110,6 +110,7 @@ impl Voxels {
             target: DVec3::ZERO,
             up: DVec3::Z,
             fov_deg: 30.0,
+            roll_deg: 0.0,
         }
     }
 

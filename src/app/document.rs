@@ -247,6 +247,7 @@ impl Document {
         if job.camera.is_at_the_front() {
             self.project.camera = CameraSettings {
                 fov_deg: self.project.camera.fov_deg,
+                roll_deg: self.project.camera.roll_deg,
                 ..CameraSettings::default()
             };
             return;

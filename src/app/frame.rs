@@ -125,6 +125,7 @@ impl eframe::App for App {
         }
         let about = plots::Shown {
             job,
+            film: self.picture.film(),
             view: &view,
             accuracy: &self.accuracy,
             told: self.told.as_ref(),

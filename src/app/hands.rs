@@ -16,7 +16,7 @@ use super::snapshots::{MOST, Way};
 use super::timeline::Step;
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
-const SHORTCUTS: [(Modifiers, Key, Command); 16] = [
+const SHORTCUTS: [(Modifiers, Key, Command); 17] = [
     (
         Modifiers::COMMAND.plus(Modifiers::SHIFT),
         Key::Z,
@@ -35,6 +35,7 @@ const SHORTCUTS: [(Modifiers, Key, Command); 16] = [
     (Modifiers::NONE, Key::F1, Command::ToggleHelp),
     (Modifiers::NONE, Key::N, Command::TogglePanel),
     (Modifiers::NONE, Key::S, Command::ToggleSpectrum),
+    (Modifiers::NONE, Key::H, Command::ToggleLevels),
     (Modifiers::NONE, Key::C, Command::ToggleAccuracy),
     (Modifiers::NONE, Key::K, Command::ToggleMap(Map::Cost)),
     (Modifiers::NONE, Key::E, Command::ToggleMap(Map::Error)),
@@ -72,6 +73,7 @@ impl App {
                 }
                 Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
                 Command::ToggleSpectrum => self.plots.toggle(),
+                Command::ToggleLevels => self.plots.toggle_levels(),
                 Command::ToggleAccuracy => self.plots.toggle_accuracy(),
                 Command::Adopt(numbers) => self
                     .document

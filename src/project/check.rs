@@ -64,6 +64,11 @@ impl Project {
                 ranges::FOV_DEG,
             ),
             (
+                "camera.roll_deg",
+                self.camera.roll_deg.unwrap_or(0.0),
+                ranges::ROLL_DEG,
+            ),
+            (
                 "view.exposure_ev",
                 self.view.exposure_ev,
                 ranges::EXPOSURE_EV,

@@ -235,6 +235,7 @@ impl Mend {
             Self::Camera => {
                 project.camera = CameraSettings {
                     fov_deg: project.camera.fov_deg,
+                    roll_deg: project.camera.roll_deg,
                     ..CameraSettings::default()
                 };
             }

@@ -332,6 +332,7 @@ impl Project {
             target: set.target.unwrap_or(framing.target),
             up: set.up.unwrap_or(DVec3::Z),
             fov_deg,
+            roll_deg: set.roll_deg.unwrap_or(0.0),
         }
     }
 }

@@ -4,6 +4,8 @@ pub use crate::render::STEP_RANGE as STEP_VOXELS;
 pub use crate::scene::camera::FOV_RANGE_DEG as FOV_DEG;
 pub use crate::volume::MEMORY_LIMIT_MB;
 
+/// `camera.roll_deg`: a whole turn.
+pub const ROLL_DEG: [f64; 2] = [-180.0, 180.0];
 /// `soot.radius_nm`: from single spheres of the smallest flames to aggregates thought of as spheres.
 pub const SOOT_RADIUS_NM: [f64; 2] = [1.0, 100.0];
 /// `soot.amount`, `smoke.amount` and `fuel.blue_glow`.

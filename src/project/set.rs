@@ -247,6 +247,7 @@ mod tests {
             ("air.humidity", ranges::HUMIDITY),
             ("air.co2_ppm", ranges::CO2_PPM),
             ("camera.fov_deg", ranges::FOV_DEG),
+            ("camera.roll_deg", ranges::ROLL_DEG),
             ("render.step_voxels", ranges::STEP_VOXELS),
             ("volume.memory_limit_mb", ranges::MEMORY_LIMIT_MB),
             ("view.exposure_ev", ranges::EXPOSURE_EV),

@@ -238,6 +238,9 @@ pub struct CameraSettings {
     /// Vertical field of view, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fov_deg: Option<f64>,
+    /// Turn of the camera about its line of sight, degrees clockwise; 0 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roll_deg: Option<f64>,
 }
 
 impl From<&Camera> for CameraSettings {
@@ -248,6 +251,7 @@ impl From<&Camera> for CameraSettings {
             target: Some(camera.target),
             up: Some(camera.up),
             fov_deg: Some(camera.fov_deg),
+            roll_deg: (camera.roll_deg != 0.0).then_some(camera.roll_deg),
         }
     }
 }
@@ -296,6 +300,7 @@ pub(super) fn everything_set() -> Project {
             target: Some(DVec3::ZERO),
             up: Some(DVec3::Z),
             fov_deg: Some(40.0),
+            roll_deg: Some(-12.5),
         },
         render: RenderSettings {
             size: [640, 360],

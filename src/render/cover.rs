@@ -155,7 +155,7 @@ mod tests {
             points in prop::collection::vec(prop::array::uniform2(0.0..1.0_f64), 64),
         ) {
             let medium = sparse(seed, Interpolation::Trilinear);
-            let camera = Camera { eye: eye.into(), target: target.into(), up: DVec3::Z, fov_deg };
+            let camera = Camera { eye: eye.into(), target: target.into(), up: DVec3::Z, fov_deg, roll_deg: 0.0 };
             let size = [77, 50];
             let Ok(view) = camera.view(size) else { return Ok(()) };
             let cover = Cover::new(Bricks::new(&medium, true), &view, size);
@@ -182,6 +182,7 @@ mod tests {
             target: DVec3::splat(12.0),
             up: DVec3::Z,
             fov_deg: 60.0,
+            roll_deg: 0.0,
         };
         let view = camera.view([64, 64]).unwrap();
         let cover = Cover::new(Bricks::new(&medium, true), &view, [64, 64]);

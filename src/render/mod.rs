@@ -17,6 +17,7 @@ use thiserror::Error;
 
 use crate::scene::WavelengthSet;
 
+pub mod along;
 mod baked;
 mod bend;
 mod cells;
@@ -34,6 +35,7 @@ mod growth;
 mod irradiance;
 mod kernel;
 mod level;
+pub mod levels;
 mod lookup;
 pub mod march;
 pub mod null_collision;

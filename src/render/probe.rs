@@ -1,5 +1,6 @@
 //! The light of one point of the picture, wavelength by wavelength.
 
+use super::along::Along;
 use super::march::{Marcher, Seen};
 use super::plan::Plan;
 use super::tables::Tables;
@@ -71,6 +72,14 @@ impl Prober {
             None => Marcher::new(&self.scene, &self.plan, STEP_VOXELS)?,
         };
         Ok(Probe::seen(&marcher.radiance(point), &self.plan.tables))
+    }
+
+    /// What lies along the way of the same ray.
+    ///
+    /// # Errors
+    /// The camera cannot see.
+    pub fn along(&self, point: [f64; 2]) -> Result<Along, CameraError> {
+        Along::new(&self.scene, self.plan.tables.size, point)
     }
 }
 

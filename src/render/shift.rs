@@ -81,6 +81,7 @@ mod tests {
             target: DVec3::ZERO,
             up: DVec3::Z,
             fov_deg: 40.0,
+            roll_deg: 0.0,
         }
     }
 

@@ -19,6 +19,9 @@ pub struct Camera {
     pub up: DVec3,
     /// Vertical field of view, degrees, 0 < fov < 180.
     pub fov_deg: f64,
+    /// By how much the camera is turned about its line of sight, degrees clockwise as it looks: the picture turns the other way.
+    #[serde(default)]
+    pub roll_deg: f64,
 }
 
 /// Why a camera cannot see.
@@ -98,6 +101,7 @@ impl Camera {
             target: centre,
             up: DVec3::Z,
             fov_deg,
+            roll_deg: 0.0,
         }
     }
 
@@ -124,7 +128,8 @@ impl Camera {
     /// # Errors
     /// [`CameraError`] names the first thing that keeps the camera from seeing.
     pub(super) fn basis(&self) -> Result<[DVec3; 3], CameraError> {
-        if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
+        let points = [self.eye, self.target, self.up];
+        if !(points.iter().all(|point| point.is_finite()) && self.roll_deg.is_finite()) {
             return Err(CameraError::NotFinite);
         }
         if !(FOV_RANGE_DEG[0]..=FOV_RANGE_DEG[1]).contains(&self.fov_deg) {
@@ -137,7 +142,9 @@ impl Camera {
         if sideways.length() < 1e-9 {
             return Err(CameraError::NoUp);
         }
-        let right = sideways.normalize();
+        let upright = sideways.normalize();
+        let (sin, cos) = self.roll_deg.to_radians().sin_cos();
+        let right = cos * upright - sin * upright.cross(forward);
         Ok([forward, right, right.cross(forward)])
     }
 }
@@ -188,6 +195,7 @@ mod tests {
             target: DVec3::new(0.2, 0.5, 0.1),
             up: DVec3::new(0.1, 0.0, 1.0),
             fov_deg: 50.0,
+            roll_deg: 0.0,
         };
         let view = camera.view([300, 200]).unwrap();
         for (x, y, far) in [(0.0, 0.0, 0.1), (150.0, 100.0, 7.0), (299.5, 3.25, 2.0)] {
@@ -206,6 +214,7 @@ mod tests {
             target: DVec3::ZERO,
             up: DVec3::Z,
             fov_deg: 40.0,
+            roll_deg: 0.0,
         };
         let view = camera.view([200, 100]).unwrap();
         let forward = (camera.target - camera.eye).normalize();

@@ -24,7 +24,7 @@ impl Camera {
     /// Turned about the target as on a turntable whose axis is `up` (the world's z unless another was set): by
     /// `yaw` radians counter-clockwise seen from above, and raised by `pitch` radians.
     ///
-    /// Distance, target, `up` and field of view stay. The height over the target ends a tenth of a degree short of
+    /// Distance, target, `up`, roll and field of view stay. The height over the target ends a tenth of a degree short of
     /// the poles, so the picture neither rolls nor turns over.
     #[must_use]
     pub fn orbited(&self, yaw: f64, pitch: f64) -> Self {
@@ -42,13 +42,14 @@ impl Camera {
 
     /// Seen from another side, upright: `azimuth` radians from the front (which looks along +y) counter-clockwise
     /// seen from above, so a quarter turn is the view from the right; `elevation` radians above the horizon, which
-    /// ends a tenth of a degree short of the poles. Distance, target and field of view stay; up is z.
+    /// ends a tenth of a degree short of the poles. Distance, target and field of view stay; up is z, without a roll.
     #[must_use]
     pub fn seen_from(&self, azimuth: f64, elevation: f64) -> Self {
         let elevation = short_of_poles(elevation);
         let radial = DVec3::new(azimuth.sin(), -azimuth.cos(), 0.0);
         Self {
             up: DVec3::Z,
+            roll_deg: 0.0,
             ..self.placed(elevation.cos() * radial + elevation.sin() * DVec3::Z)
         }
     }
@@ -123,7 +124,7 @@ impl Camera {
         }
     }
 
-    /// Whether it looks as [`Camera::framing`] does: along +y, z up.
+    /// Whether it looks as [`Camera::framing`] does, rolled or not: along +y, z up.
     pub fn is_at_the_front(&self) -> bool {
         let along = |vector: DVec3, axis: DVec3| vector.normalize_or_zero().dot(axis) > ALONG;
         along(self.target - self.eye, DVec3::Y) && along(self.up, DVec3::Z)
@@ -153,6 +154,7 @@ mod tests {
         target: DVec3::new(1.0, 1.0, 2.0),
         up: DVec3::Z,
         fov_deg: 32.0,
+        roll_deg: 0.0,
     };
 
     fn distance(camera: &Camera) -> f64 {
@@ -199,6 +201,7 @@ mod tests {
             target: DVec3::ZERO,
             up: DVec3::new(0.0, 2.0, 0.0),
             fov_deg: 50.0,
+            roll_deg: 0.0,
         };
         let turned = camera.orbited(FRAC_PI_2, 0.0);
         assert!(turned.eye.abs_diff_eq(DVec3::new(3.0, 0.0, 0.0), 1e-12));
@@ -223,6 +226,24 @@ mod tests {
         assert!(right.abs_diff_eq(DVec3::X, 1e-9) && up.abs_diff_eq(DVec3::Y, 2e-3));
         assert!(CAMERA.is_at_the_front() && CAMERA.seen_from(0.0, 0.0).is_at_the_front());
         assert!(!CAMERA.orbited(0.001, 0.0).is_at_the_front());
+    }
+
+    #[test]
+    fn a_roll_turns_the_picture_about_its_middle_and_stays_in_an_orbit() {
+        let rolled = Camera {
+            roll_deg: 90.0,
+            ..CAMERA
+        };
+        // Turned clockwise by a quarter, its right is what was below.
+        let [forward, right, up] = rolled.basis().unwrap();
+        assert!(forward.abs_diff_eq(DVec3::Y, 1e-12));
+        assert!(right.abs_diff_eq(DVec3::NEG_Z, 1e-12) && up.abs_diff_eq(DVec3::X, 1e-12));
+        let [plain, turned] = [CAMERA, rolled].map(|camera| camera.view([200, 200]).unwrap());
+        let same = turned.ray(130.0, 100.0).direction;
+        assert!(plain.ray(100.0, 130.0).direction.abs_diff_eq(same, 1e-12));
+        // Drags go on to move what is under the pointer, and the sides are upright.
+        assert_eq!(rolled.orbited(0.3, 0.2).roll_deg, 90.0);
+        assert_eq!(rolled.seen_from(0.0, 0.0).roll_deg, 0.0);
     }
 
     #[test]

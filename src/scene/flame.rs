@@ -116,6 +116,11 @@ impl Flame {
         self.effect.bending.as_ref()
     }
 
+    /// What a volume fraction of the *medium* is to be multiplied by: the scene's amount, and what the radius does to it.
+    pub fn volume_fraction_factor(&self) -> f64 {
+        self.effect.volume_fraction_factor
+    }
+
     /// Absorption coefficient at a wavelength for a volume fraction of the *medium*, 1/m for each unit: the
     /// soot's law times amount and radius.
     pub fn absorption_per_sample(&self, lambda_nm: f64) -> f64 {

@@ -33,6 +33,7 @@ fn scene() -> Scene {
         target: DVec3::new(0.0, -0.26, 0.0),
         up: DVec3::Z,
         fov_deg: 12.0,
+        roll_deg: 0.0,
     };
     let mut scene = common::scene(procedural::torch(), camera);
     scene.stage.ground = Some(Ground {

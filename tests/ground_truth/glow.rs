@@ -37,6 +37,7 @@ fn scene(
         target: DVec3::ZERO,
         up: DVec3::Z,
         fov_deg: 1.0,
+        roll_deg: 0.0,
     };
     job.scene(None)
 }

@@ -92,6 +92,7 @@ fn layers(angle: f64, enters_m: f64, backdrop_m: f64) -> Scene {
         target,
         up: DVec3::Z,
         fov_deg: 20.0,
+        roll_deg: 0.0,
     };
     scene
 }

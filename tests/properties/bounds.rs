@@ -71,6 +71,7 @@ proptest! {
             target: glam::DVec3::ZERO,
             up: glam::DVec3::Z,
             fov_deg: 10.0,
+            roll_deg: 0.0,
         };
         let scene = job.scene(None);
         let whole = look(&scene, step, NODES_NM);

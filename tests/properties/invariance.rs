@@ -137,6 +137,7 @@ impl Clouds {
                 target: middle,
                 up: DVec3::Z,
                 fov_deg: 20.0,
+                roll_deg: 0.0,
             },
         )
     }

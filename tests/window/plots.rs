@@ -96,6 +96,37 @@ fn a_key_or_the_button_opens_and_closes_the_spectra() {
 }
 
 #[test]
+fn the_histogram_tells_what_is_black_and_what_is_clipped() {
+    let mut harness = window_of(Project::default(), SIZE);
+    harness.key_press(Key::H);
+    harness.run_steps(3);
+    let shares = |harness: &Harness<'_, App>| -> Vec<f64> {
+        let node = harness.get_by_label_contains("Histogram of the picture");
+        let words = node.accesskit_node().label().unwrap();
+        let numbers = words.split(|it: char| !it.is_ascii_digit() && it != '.');
+        numbers.filter_map(|it| it.parse().ok()).collect()
+    };
+    let before = shares(&harness);
+    // Most around the flame is black, and little of it has lost its colour.
+    assert!(before[0] > 20.0 && before[3] < 5.0, "{before:?}");
+    harness.state_mut().document_mut().project.view.exposure_ev = 6.0;
+    harness.run_steps(3);
+    let after = shares(&harness);
+    assert!(
+        after[1] > before[1] + 10.0 && after[0] <= before[0],
+        "{before:?} {after:?}"
+    );
+    harness.key_press(Key::H);
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("Histogram of").is_none());
+    // The spectra have their own key, whatever was on show.
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    harness.get_by_label("Fuel and air");
+    assert!(harness.query_by_label("Histogram of").is_none());
+}
+
+#[test]
 fn the_pixel_under_the_pointer_is_read() {
     let mut harness = plots();
     harness.get_by_label("Point at the picture");
@@ -111,6 +142,16 @@ fn the_pixel_under_the_pointer_is_read() {
         "{words}, film {luminance}"
     );
     assert!(words.contains("as a black body of 1"), "{words}");
+
+    // What the ray has passed stands below.
+    for label in ["Temperature along the ray", "Soot along the ray"] {
+        harness.get_by_label_contains(label);
+    }
+    let words = label_with(&mut harness, "optical depth");
+    assert!(
+        words.contains("hottest soot") && words.contains("m away"),
+        "{words}"
+    );
 
     // Beside the fire it is black, and the reading says so.
     let corner = on_picture(&harness, 0.01, 0.01);

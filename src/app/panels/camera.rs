@@ -80,4 +80,19 @@ fn lens(ui: &mut Ui, document: &mut Document) {
         ui,
         &format!("sees {:.1}° from top to bottom", fov_deg(focal)),
     );
+    let mut roll = project.camera.roll_deg.unwrap_or(0.0);
+    let changed = Knob {
+        label: "Roll",
+        unit: unit::DEGREES,
+        slider: ranges::ROLL_DEG,
+        range: ranges::ROLL_DEG,
+        logarithmic: false,
+        default: 0.0,
+        tip: "Turns the camera about its line of sight, clockwise as it looks: the fire leans the other way.",
+        idle: None,
+    }
+    .show(ui, &mut roll);
+    if changed {
+        project.camera.roll_deg = (roll != 0.0).then_some(roll);
+    }
 }

@@ -56,6 +56,7 @@ const HANDS: &[Section] = &[
             ("right drag", "move it"),
             ("double click, 0", "fit it"),
             ("S", "spectrum under the pointer; a click keeps the pixel"),
+            ("H", "histogram, and what is clipped"),
             ("C", "what accuracy costs; a click on a dot adopts it"),
             ("K, E", "map of what each pixel costs, of its error"),
             ("G, W, Q", "grab a snapshot; wipe against it; flip to it"),

@@ -73,6 +73,8 @@ pub(super) enum Command {
     TogglePanel,
     /// Show the spectra, or hide them.
     ToggleSpectrum,
+    /// Show the histogram, or hide it.
+    ToggleLevels,
     /// Show what accuracy costs, or hide it.
     ToggleAccuracy,
     /// Render with these numbers from here on.

@@ -57,6 +57,15 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>
                     {
                         commands.push(Command::ToggleSpectrum);
                     }
+                    let levels = ui.selectable_label(app.plots.shows_levels(), "Histogram");
+                    if levels
+                        .on_hover_text(
+                            "Show or hide how often the picture shows each level, and what is clipped (H).",
+                        )
+                        .clicked()
+                    {
+                        commands.push(Command::ToggleLevels);
+                    }
                     let accuracy = ui.selectable_label(app.plots.shows_accuracy(), "Accuracy");
                     if accuracy
                         .on_hover_text("Show or hide what accuracy costs in time (C).")

@@ -203,6 +203,16 @@ pub(super) const MILLIMETRES: Unit = Unit {
     example: "6.25 mm or 1 cm",
 };
 
+/// Angles, held in degrees.
+pub(super) const DEGREES: Unit = Unit {
+    name: "°",
+    one: None,
+    shown: 1.0,
+    decimals: 1,
+    also: &[("deg", |n| n), ("rad", f64::to_degrees)],
+    example: "12.5 or 12.5°",
+};
+
 /// Focal lengths on a 36 × 24 mm frame, held in mm; an angle is the picture's vertical field of view.
 pub(super) const FOCAL_LENGTH: Unit = Unit {
     name: "mm",

@@ -4,7 +4,9 @@
 //! packed already.
 
 mod accuracy;
+mod along;
 mod chart;
+mod levels;
 mod optics;
 mod pixel;
 
@@ -18,11 +20,14 @@ use super::panels::Command;
 use crate::colour::display::View;
 use crate::engine::Engine;
 use crate::project::Job;
+use crate::render::Film;
 
 /// What the plots are about.
 pub(super) struct Shown<'a> {
     /// The job that was valid last.
     pub(super) job: Option<&'a Job>,
+    /// The picture on show.
+    pub(super) film: &'a Film,
     /// How its picture is developed.
     pub(super) view: &'a View,
     /// What is known of errors and seconds.
@@ -44,6 +49,8 @@ enum Tab {
     /// The light of one pixel.
     #[default]
     Pixel,
+    /// How often each level of the display is on show.
+    Levels,
     /// The optics of a place in the fire.
     FuelAndAir,
     /// What accuracy costs.
@@ -62,15 +69,27 @@ pub(super) struct Plots {
 impl Plots {
     /// Whether the spectra are on show.
     pub(super) fn is_open(&self) -> bool {
-        self.is_open && self.tab != Tab::Accuracy
+        self.is_open && matches!(self.tab, Tab::Pixel | Tab::FuelAndAir)
     }
 
     /// Opens the window with the spectra, or closes it if it shows them.
     pub(super) fn toggle(&mut self) {
-        self.is_open = !self.is_open || self.tab == Tab::Accuracy;
-        if self.tab == Tab::Accuracy {
+        let shows = self.is_open();
+        self.is_open = !shows;
+        if !matches!(self.tab, Tab::Pixel | Tab::FuelAndAir) {
             self.tab = Tab::default();
         }
+    }
+
+    /// Whether the histogram is on show.
+    pub(super) fn shows_levels(&self) -> bool {
+        self.is_open && self.tab == Tab::Levels
+    }
+
+    /// Opens the histogram, or closes the window if it is that.
+    pub(super) fn toggle_levels(&mut self) {
+        self.is_open = !self.shows_levels();
+        self.tab = Tab::Levels;
     }
 
     /// Closes the window, if it is open. True if it was.
@@ -104,10 +123,10 @@ impl Plots {
         let (job, view) = (shown.job, shown.view);
         let whole = ctx.content_rect();
         let mut open = true;
-        let title = if self.tab == Tab::Accuracy {
-            "Accuracy"
-        } else {
-            "Spectrum"
+        let title = match self.tab {
+            Tab::Accuracy => "Accuracy",
+            Tab::Levels => "Histogram",
+            Tab::Pixel | Tab::FuelAndAir => "Spectrum",
         };
         Window::new(title)
             .id(Id::unique("plots"))
@@ -124,6 +143,7 @@ impl Plots {
                         self.tabs(ui);
                         match self.tab {
                             Tab::Pixel => self.pixel.show(ui, engine, view, place),
+                            Tab::Levels => levels::show(ui, shown.film, view),
                             Tab::FuelAndAir => self.optics.show(ui, job),
                             Tab::Accuracy => {
                                 accuracy::show(ui, shown.accuracy, job, shown.told, commands);
@@ -144,6 +164,11 @@ impl Plots {
                     Tab::Pixel,
                     "Pixel",
                     "The light of the pixel under the pointer.",
+                ),
+                (
+                    Tab::Levels,
+                    "Histogram",
+                    "How often the picture shows each level of red, green and blue, and what is clipped.",
                 ),
                 (
                     Tab::FuelAndAir,

@@ -5,12 +5,14 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use egui::{Color32, Context, LayerId, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
 use egui_plot::LineStyle;
 
+use super::along;
 use super::chart::{Axis, Chart, Curve};
 use crate::app::canvas::PicturePlace;
 use crate::app::panels::short;
 use crate::app::theme::IDLE;
 use crate::colour::display::{BakedView, View};
 use crate::engine::{Engine, Generation, Packed};
+use crate::render::along::Along;
 use crate::render::develop::can_be_seen;
 use crate::render::{Probe, Prober};
 
@@ -38,6 +40,7 @@ struct Reading {
     generation: Generation,
     pixel: [u32; 2],
     probe: Probe,
+    along: Along,
 }
 
 impl PixelPlot {
@@ -70,6 +73,9 @@ impl PixelPlot {
             }],
         }
         .show(ui);
+        if let Some(reading) = reading {
+            along::show(ui, &reading.along);
+        }
     }
 
     /// Rings the pixel that a click has kept.
@@ -119,11 +125,13 @@ impl PixelPlot {
         self.fetch(&packed, ctx);
         let centre = pixel.map(|at| f64::from(at) + 0.5);
         let prober = self.prober.as_ref().filter(|(of, _)| *of == generation);
-        if let Some(Ok(probe)) = prober.map(|(_, prober)| prober.read(centre)) {
+        let read = |prober: &Prober| Some((prober.read(centre).ok()?, prober.along(centre).ok()?));
+        if let Some((probe, along)) = prober.and_then(|(_, prober)| read(prober)) {
             self.reading = Some(Reading {
                 generation,
                 pixel,
                 probe,
+                along,
             });
         }
     }

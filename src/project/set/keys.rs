@@ -306,6 +306,11 @@ pub const KEYS: &[Key] = &[
         "vertical field of view",
     ),
     key(
+        "camera.roll_deg",
+        "a number of degrees, -180 to 180",
+        "turn about the line of sight, clockwise",
+    ),
+    key(
         "render.size",
         "two whole numbers of pixels, such as [1280, 720]",
         "width and height of a still",

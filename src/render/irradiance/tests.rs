@@ -70,6 +70,7 @@ pub(super) fn scene(flame: Flame, stage: Stage) -> Scene {
         target: DVec3::new(0.0, 0.0, 0.2),
         up: DVec3::Z,
         fov_deg: 40.0,
+        roll_deg: 0.0,
     };
     Scene {
         flame,
@@ -152,6 +153,7 @@ pub(super) fn marched_irradiance(
             target: point + normal,
             up: normal.any_orthonormal_vector(),
             fov_deg,
+            roll_deg: 0.0,
         },
         ..scene.clone()
     };

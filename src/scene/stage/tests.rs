@@ -245,6 +245,7 @@ fn looking_along_y() -> Camera {
         target: DVec3::ZERO,
         up: DVec3::Z,
         fov_deg: 60.0,
+        roll_deg: 0.0,
     }
 }
 

@@ -106,6 +106,7 @@ fn marched_aside(
             target,
             up: DVec3::Z,
             fov_deg: FOV_DEG,
+            roll_deg: 0.0,
         },
         ..scene.clone()
     };
