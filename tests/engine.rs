@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use sootlight::engine::{Engine, Generation, News, Packed, Picture};
 use sootlight::project::Job;
 use sootlight::render::plan::Effect;
-use sootlight::render::{Cancel, Level, Plan, Switch, render_still};
+use sootlight::render::{Cancel, Level, Plan, Region, Switch, render_still};
 use sootlight::scene::{Scene, WavelengthSet};
 
 use super::common;
@@ -102,6 +102,72 @@ fn costs_come_after_the_picture_and_whoever_looks_closer_sees_what_was_decided()
 }
 
 #[test]
+fn a_region_is_as_a_still_and_what_lies_around_it_stays_coarse() {
+    let (engine, _) = engine();
+    let size = [128, 192];
+    let mut picture = Picture::new(size);
+    let job = numbered(1, size);
+    let region = Region {
+        from: [40, 70],
+        to: [50, 110],
+    };
+    engine.submit_within(job.clone(), Some(region));
+    wait(&engine, &mut picture, |picture| picture.progress.finished);
+    let still = render_still(&job.scene(None), &job.settings, &Cancel::never(), &|_| {}).unwrap();
+    let mut sharp = 0;
+    for (i, stride) in picture.strides().iter().enumerate() {
+        let at = [(i % 128) as u32, (i / 128) as u32];
+        let inside = [0, 1]
+            .into_iter()
+            .all(|axis| (region.from[axis]..region.to[axis]).contains(&at[axis]));
+        assert!(*stride == 1 || !inside && *stride == 2, "{at:?}: {stride}");
+        if *stride == 1 {
+            sharp += 1;
+            assert_eq!(picture.film().pixels()[i], still.film.pixels()[i]);
+        }
+    }
+    // Tiles of 32 pixels, of which a row of two by two lies around the region.
+    assert_eq!(sharp, 32 * 64);
+    let last = picture.progress.passes.last().unwrap();
+    assert_eq!(last.rays(size), 32 * 64);
+}
+
+#[test]
+fn a_picture_pauses_goes_on_and_is_the_same() {
+    let (engine, _) = engine();
+    let size = [256, 384];
+    let mut picture = Picture::new(size);
+    let job = numbered(1, size);
+    engine.submit(job.clone());
+    engine.pause(true);
+    assert!(engine.pauses());
+    // What was in hand comes yet: a tile for each worker.
+    std::thread::sleep(Duration::from_millis(400));
+    engine.drain().into_iter().for_each(|it| picture.take(it));
+    let rays = picture.progress.rays;
+    std::thread::sleep(Duration::from_millis(300));
+    engine.drain().into_iter().for_each(|it| picture.take(it));
+    assert_eq!(picture.progress.rays, rays);
+    assert!(!picture.progress.finished);
+    engine.pause(false);
+    wait(&engine, &mut picture, |picture| picture.progress.finished);
+    let still = render_still(&job.scene(None), &job.settings, &Cancel::never(), &|_| {}).unwrap();
+    assert_eq!(*picture.film(), still.film);
+
+    // Another job does not wait behind one that pauses, nor does the end.
+    engine.submit(numbered(2, size));
+    engine.pause(true);
+    let newest = engine.submit(numbered(3, size));
+    assert!(!engine.pauses());
+    wait(&engine, &mut picture, |picture| {
+        picture.generation() == Some(newest) && picture.progress.finished
+    });
+    engine.submit(numbered(4, size));
+    engine.pause(true);
+    drop(engine);
+}
+
+#[test]
 fn other_numbers_for_the_same_scene_work_nothing_out_again() {
     let (engine, _) = engine();
     let size = [64, 96];
@@ -112,7 +178,7 @@ fn other_numbers_for_the_same_scene_work_nothing_out_again() {
     let first = engine.scene().unwrap();
     let mut finer = job.clone();
     finer.settings.step_voxels *= 0.5;
-    let newest = engine.refine(finer.clone(), None);
+    let newest = engine.refine(finer.clone(), None, None);
     wait(&engine, &mut picture, |picture| {
         picture.generation() == Some(newest) && picture.progress.finished
     });
@@ -139,7 +205,7 @@ fn other_numbers_for_the_same_scene_work_nothing_out_again() {
     other.settings.effects.wavelengths = Switch::Off;
     let tried = second.plan.at(&second.scene, &other.settings);
     let of_tried = fine(&tried, &second.scene);
-    let newest = engine.refine(other, Some(Arc::new(tried)));
+    let newest = engine.refine(other, None, Some(Arc::new(tried)));
     wait(&engine, &mut picture, |picture| {
         picture.generation() == Some(newest) && picture.progress.finished
     });

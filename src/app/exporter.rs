@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 
 use super::words::with_causes;
 use crate::export::ExportError;
-use crate::range::Gate;
+use crate::render::Gate;
 use crate::render::preparation::Preparation;
 use crate::render::{Cancel, Flaws};
 

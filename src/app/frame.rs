@@ -79,6 +79,7 @@ impl eframe::App for App {
             &panels::Beside {
                 told: self.told.as_ref(),
                 map: self.maps.shown(),
+                region: &self.region,
                 snapshots: &self.snapshots,
                 recent: &self.recent,
             },
@@ -111,12 +112,14 @@ impl eframe::App for App {
         let shown = self
             .canvas
             .show(ui, &self.picture, &view, camera, &over, keys);
+        self.region.show(ui, &shown.place);
         if let Some(share) = shown.wiped {
             self.snapshots.wipe_to(share);
         }
         self.canvas_size = Some(shown.size);
         let job = self.document.last_job();
         if self.plots.shows_accuracy()
+            && !self.engine.pauses()
             && let Some(job) = job
         {
             let is_done = self.picture.progress.finished;

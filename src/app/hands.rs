@@ -16,7 +16,7 @@ use super::snapshots::{MOST, Way};
 use super::timeline::Step;
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
-const SHORTCUTS: [(Modifiers, Key, Command); 17] = [
+const SHORTCUTS: [(Modifiers, Key, Command); 20] = [
     (
         Modifiers::COMMAND.plus(Modifiers::SHIFT),
         Key::Z,
@@ -32,6 +32,13 @@ const SHORTCUTS: [(Modifiers, Key, Command); 17] = [
     (Modifiers::COMMAND, Key::Y, Command::Redo),
     (Modifiers::COMMAND, Key::O, Command::Ask),
     (Modifiers::COMMAND, Key::E, Command::OpenExport),
+    (
+        Modifiers::COMMAND.plus(Modifiers::ALT),
+        Key::B,
+        Command::WholePicture,
+    ),
+    (Modifiers::COMMAND, Key::B, Command::ChooseRegion),
+    (Modifiers::NONE, Key::P, Command::PausePicture),
     (Modifiers::NONE, Key::F1, Command::ToggleHelp),
     (Modifiers::NONE, Key::N, Command::TogglePanel),
     (Modifiers::NONE, Key::S, Command::ToggleSpectrum),
@@ -79,6 +86,12 @@ impl App {
                     .document
                     .change(|document| numbers.by_hand(&mut document.project.render)),
                 Command::ToggleMap(map) => self.maps.toggle(map),
+                Command::ChooseRegion => self.region.toggle_choosing(),
+                Command::WholePicture => self.region.clear(),
+                Command::PausePicture => {
+                    let pauses = self.is_working() && !self.engine.pauses();
+                    self.engine.pause(pauses);
+                }
                 Command::GrabSnapshot => self.grab(),
                 Command::Compare(way) => {
                     // There is nothing to compare with yet: this picture will be it.
@@ -147,6 +160,8 @@ impl App {
             format!("{MOST} snapshots are kept at most: forget one first.")
         } else if !self.shows_a_fine_picture() || self.document.problem().is_some() {
             "A snapshot is of a picture as sharp as its pixels: wait until this one is.".to_owned()
+        } else if self.region.is_set() {
+            "A snapshot is of a whole picture: only a part of this one is sharp.".to_owned()
         } else if !is_shown {
             "This picture is too large to be shown, so nothing can be compared with it.".to_owned()
         } else {
@@ -242,6 +257,7 @@ impl App {
                 self.stay_open();
             }
             let _ = saves
+                || self.region.stop_choosing()
                 || std::mem::take(&mut self.panels.shows_help)
                 || self.panels.export.close()
                 || self.plots.close()

@@ -23,6 +23,7 @@ mod panels;
 mod pictures;
 mod plots;
 mod recent;
+mod region;
 mod scene_file;
 mod snapshots;
 mod start;
@@ -51,6 +52,7 @@ use self::panels::Panels;
 use self::pictures::Submitted;
 use self::plots::Plots;
 use self::recent::Recent;
+use self::region::RegionFrame;
 use self::scene_file::SceneFile;
 use self::snapshots::Snapshots;
 use self::timeline::Timeline;
@@ -81,6 +83,7 @@ pub struct App {
     told: Option<Told>,
     maps: Maps,
     snapshots: Snapshots,
+    region: RegionFrame,
     canvas: Canvas,
     /// Size of the canvas in pixels, once it was laid out.
     canvas_size: Option<[u32; 2]>,
@@ -152,6 +155,7 @@ impl App {
             maps: Maps::new(map_wake),
             accuracy: Accuracy::new(study_wake),
             snapshots: Snapshots::new(ctx),
+            region: RegionFrame::default(),
             canvas: Canvas::new(creation.wgpu_render_state.clone()),
             canvas_size: None,
             submitted: None,

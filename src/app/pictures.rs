@@ -8,7 +8,7 @@ use crate::engine::picture::Progress;
 use crate::engine::{Generation, Picture};
 use crate::project::Job;
 use crate::render::plan::Effect;
-use crate::render::{Effects, Facts};
+use crate::render::{Effects, Facts, Region};
 use crate::study::Numbers;
 
 /// So long a changed job waits for the first picture of the one before it.
@@ -17,6 +17,8 @@ const LONGEST_WAIT: Duration = Duration::from_millis(250);
 /// The job that the engine works on.
 pub(super) struct Submitted {
     pub(super) job: Job,
+    /// The part that is sharpened; `None` for all of it.
+    region: Option<Region>,
     pub(super) generation: Generation,
     /// When.
     pub(super) at: Instant,
@@ -117,6 +119,10 @@ impl App {
         let Some(submitted) = &self.submitted else {
             return;
         };
+        // Whoever lets the picture pause wants the machine for something else.
+        if self.engine.pauses() {
+            return;
+        }
         let is_fine = self.shows_a_fine_picture();
         let packed = if is_fine { self.engine.scene() } else { None };
         self.accuracy.follow(&submitted.job, packed, is_fine);
@@ -162,24 +168,28 @@ impl App {
         let Some(job) = self.job_to_render(size) else {
             return;
         };
+        let region = self.region.pixels(job.settings.size);
         match &mut self.submitted {
             // The same picture may be meant by other numbers, such as a humidity that nothing shows.
-            Some(submitted) if submitted.job == job => submitted.job = job,
+            Some(submitted) if submitted.job == job && submitted.region == region => {
+                submitted.job = job;
+            }
             // A slider that moves faster than pictures come would starve them all.
             Some(submitted) if submitted.is_worth_waiting_for(&job, &self.picture) => {}
             submitted => {
                 let chosen = self.document.is_chosen();
                 let is_the_same_view = submitted
                     .as_ref()
-                    .is_some_and(|it| chosen && is_the_same_view(&it.job, &job));
+                    .is_some_and(|it| it.job == job || chosen && is_the_same_view(&it.job, &job));
                 let generation = if is_the_same_view {
                     let tried = self.accuracy.tried(&job);
-                    self.engine.refine(job.clone(), tried)
+                    self.engine.refine(job.clone(), region, tried)
                 } else {
-                    self.engine.submit(job.clone())
+                    self.engine.submit_within(job.clone(), region)
                 };
                 self.submitted = Some(Submitted {
                     job,
+                    region,
                     generation,
                     at: Instant::now(),
                     begun: None,

@@ -13,8 +13,8 @@ use super::output;
 use super::pool::pool;
 use super::stats::{self, Stats};
 use crate::export::{self, is_same_file};
-use crate::range::{self, Ended, Gate, Locked, Made, Order, Outcome, RangeError};
-use crate::render::Cancel;
+use crate::range::{self, Ended, Locked, Made, Order, Outcome, RangeError};
+use crate::render::{Cancel, Gate};
 use crate::sequence::{Frames, Sequence};
 
 impl Render {

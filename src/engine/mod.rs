@@ -26,7 +26,7 @@ pub use picture::Picture;
 use crate::project::Job;
 use crate::render::costs::costs;
 use crate::render::plan::Decision;
-use crate::render::{Cancel, Pass, Plan, pass, render_pass};
+use crate::render::{Cancel, Gate, Pass, Plan, Region, pass, render_pass};
 use crate::scene::Scene;
 use crate::volume::Volume;
 
@@ -53,6 +53,8 @@ struct Shared {
     /// Raised by each submit; what a [`Cancel`] compares with.
     current: Arc<AtomicU64>,
     stop: AtomicBool,
+    /// Shut while the running job pauses.
+    gate: Gate,
     waiting: Mutex<Option<Waiting>>,
     arrived: Condvar,
     outbox: Mutex<Vec<Update>>,
@@ -65,6 +67,8 @@ struct Shared {
 struct Waiting {
     generation: Generation,
     job: Job,
+    /// The part that it is to be sharp in; `None` for all of it.
+    region: Option<Region>,
     /// What it shows in the same way with other numbers, if it does.
     refines: Option<Refined>,
     submitted: Instant,
@@ -98,6 +102,7 @@ impl Engine {
         let shared = Arc::new(Shared {
             current: Arc::default(),
             stop: AtomicBool::new(false),
+            gate: Gate::default(),
             waiting: Mutex::new(None),
             arrived: Condvar::new(),
             outbox: Mutex::new(Vec::new()),
@@ -125,27 +130,51 @@ impl Engine {
 
     /// Renders this job from now on; whatever was running, waiting or not yet drained is forgotten.
     pub fn submit(&self, job: Job) -> Generation {
-        self.take(job, |_| None)
+        self.submit_within(job, None)
+    }
+
+    /// The same, sharp only in a part of the picture, if one is given.
+    pub fn submit_within(&self, job: Job, region: Option<Region>) -> Generation {
+        self.take(job, region, |_| None)
     }
 
     /// The same for a job that shows what the one before shows, with other numbers: no coarse picture of it takes the place of
     /// a fine one, and what was worked out for that, or for a plan that somebody `tried` with the same scene, is not worked out
     /// again.
-    pub fn refine(&self, job: Job, tried: Option<Arc<Plan>>) -> Generation {
-        self.take(job, |generation| Some(Refined { generation, tried }))
+    pub fn refine(&self, job: Job, region: Option<Region>, tried: Option<Arc<Plan>>) -> Generation {
+        self.take(job, region, |generation| {
+            Some(Refined { generation, tried })
+        })
     }
 
-    fn take(&self, job: Job, refines: impl FnOnce(Generation) -> Option<Refined>) -> Generation {
+    /// Lets the running job pause after the tiles in hand, or go on. The next job goes on by itself.
+    pub fn pause(&self, pauses: bool) {
+        self.shared.gate.set_shut(pauses);
+    }
+
+    /// Whether it pauses.
+    pub fn pauses(&self) -> bool {
+        self.shared.gate.is_shut()
+    }
+
+    fn take(
+        &self,
+        job: Job,
+        region: Option<Region>,
+        refines: impl FnOnce(Generation) -> Option<Refined>,
+    ) -> Generation {
         let mut waiting = lock(&self.shared.waiting);
         let before = Generation(self.shared.current.load(Ordering::SeqCst));
         let generation = self.shared.next_generation();
         *waiting = Some(Waiting {
             generation,
             job,
+            region,
             refines: refines(before),
             submitted: Instant::now(),
         });
         drop(waiting);
+        self.pause(false);
         self.shared.arrived.notify_one();
         generation
     }
@@ -155,6 +184,8 @@ impl Engine {
         let mut waiting = lock(&self.shared.waiting);
         self.shared.next_generation();
         *waiting = None;
+        drop(waiting);
+        self.pause(false);
     }
 
     /// Everything published since the last drain, oldest first. Never waits: empty if a worker is publishing
@@ -273,12 +304,11 @@ impl Shared {
         // What may be the last of an old volume is freed outside the lock.
         drop(replaced);
         let shows_enough = refined.is_some_and(|(_, before)| before.is_fine);
-        let audience = if shows_enough {
-            pass::Audience::Still
-        } else {
-            pass::Audience::Window
+        let passes = match next.region {
+            Some(region) => pass::ladder_within(&job.settings, region),
+            None if shows_enough => pass::ladder(&job.settings, pass::Audience::Still),
+            None => pass::ladder(&job.settings, pass::Audience::Window),
         };
-        let passes = pass::ladder(&job.settings, audience);
         let started = News::Started {
             passes: passes.clone(),
             size: job.settings.size,
@@ -301,7 +331,8 @@ impl Shared {
             scene,
             volume: Arc::clone(&job.volume),
             decisions: plan.decisions.clone(),
-            is_fine: shows_enough || passes.iter().take(whole).any(|pass| pass.stride == 1),
+            is_fine: next.region.is_none()
+                && (shows_enough || passes.iter().take(whole).any(|pass| pass.stride == 1)),
         }
     }
 
@@ -319,6 +350,7 @@ impl Shared {
             let begun = Instant::now();
             let whole = render_pass(scene, plan, pass, cancel, &|tile| {
                 self.publish(generation, News::Tile(tile));
+                self.gate.pass(cancel);
             });
             if !whole || cancel.is_cancelled() {
                 return index;

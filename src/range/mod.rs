@@ -7,7 +7,6 @@
 //! [`write()`] then makes the pictures frame by frame, and keeps those that are there already.
 
 mod error;
-mod gate;
 mod hold;
 mod kept;
 mod lock;
@@ -17,7 +16,6 @@ mod target;
 mod write;
 
 pub use error::{FrameError, RangeError};
-pub use gate::Gate;
 pub use hold::{Taken, is_held};
 pub use lock::{Locked, lock};
 pub use order::Order;

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::error::{FrameError, RangeError};
-use super::gate::Gate;
 use super::kept::{is_there, mark};
 use super::order::Order;
 use super::{open, project_of, target};
 use crate::export::{ExportError, Still, Written, check_target};
 use crate::render::clock::timed_on_pool;
-use crate::render::{Cancel, Frame};
+use crate::render::{Cancel, Frame, Gate};
 use crate::scene::Scene;
 use crate::study::{self, Aim};
 use crate::volume::Watch;

@@ -30,6 +30,7 @@ pub mod difference;
 mod eikonal;
 pub mod fields;
 pub mod film;
+mod gate;
 pub mod glow;
 mod growth;
 mod irradiance;
@@ -60,8 +61,9 @@ mod way;
 pub mod white;
 
 pub use film::{Film, Pixel, Tile};
+pub use gate::Gate;
 pub use level::Level;
-pub use pass::{Pass, render_mosaic, render_pass};
+pub use pass::{Pass, Region, render_mosaic, render_pass};
 pub use plan::{Facts, Plan};
 pub use probe::{Probe, Prober};
 pub use still::{Frame, render_planned, render_still};

@@ -286,6 +286,7 @@ impl Look {
             sample: 0,
             samples: 1,
             step_voxels: LOOK_STEP_VOXELS,
+            region: None,
         };
         let taken = AtomicU64::new(0);
         let whole = render_pass(scene, plan, &pass, cancel, &|tile| {

@@ -22,14 +22,58 @@ pub struct Pass {
     pub samples: u32,
     /// Length of a step in voxels.
     pub step_voxels: f64,
+    /// Which part of the picture it sharpens; `None` for all of it.
+    pub region: Option<Region>,
+}
+
+/// A part of a picture, pixels from its upper left corner: columns and rows from the first on, up to the second.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Region {
+    /// The first column and row.
+    pub from: [u32; 2],
+    /// One past the last.
+    pub to: [u32; 2],
+}
+
+impl Region {
+    /// Whether any of it lies in a rectangle, told by its upper left pixel and its width and height.
+    fn meets(&self, corner: [u32; 2], size: [u32; 2]) -> bool {
+        [0, 1]
+            .into_iter()
+            .all(|axis| corner[axis] < self.to[axis] && corner[axis] + size[axis] > self.from[axis])
+    }
 }
 
 impl Pass {
     /// Rays of the whole pass.
     pub fn rays(&self, size: [u32; 2]) -> u64 {
-        let across = size.map(|side| u64::from(side.div_ceil(self.stride)));
-        across[0] * across[1]
+        let rays = size.map(|side| side.div_ceil(self.stride));
+        if self.region.is_none() {
+            return u64::from(rays[0]) * u64::from(rays[1]);
+        }
+        let tiles = self.tiles(rays).into_iter();
+        tiles
+            .map(|corner| tile_size(corner, rays, TILE))
+            .map(|[width, height]| u64::from(width) * u64::from(height))
+            .sum()
     }
+
+    /// Upper left rays of its tiles, those nearest the centre first.
+    fn tiles(&self, rays: [u32; 2]) -> Vec<[u32; 2]> {
+        let mut tiles = centre_out(rays);
+        if let Some(region) = self.region {
+            let pixels = |rays: [u32; 2]| rays.map(|ray| ray * self.stride);
+            tiles.retain(|&corner| {
+                region.meets(pixels(corner), pixels(tile_size(corner, rays, TILE)))
+            });
+        }
+        tiles
+    }
+}
+
+/// Width and height of the tile at a corner, in rays.
+fn tile_size(corner: [u32; 2], rays: [u32; 2], side: u32) -> [u32; 2] {
+    [0, 1].map(|axis| side.min(rays[axis] - corner[axis]))
 }
 
 /// Who waits for the picture.
@@ -57,14 +101,24 @@ pub fn ladder(settings: &Settings, audience: Audience) -> Vec<Pass> {
         sample: 0,
         samples: 1,
         step_voxels: step_voxels.max(COARSE_STEP_VOXELS),
+        region: None,
     });
     let full = (0..settings.samples_per_pixel).map(|sample| Pass {
         stride: 1,
         sample,
         samples: settings.samples_per_pixel,
         step_voxels,
+        region: None,
     });
     coarse.chain(full).collect()
+}
+
+/// The passes of a picture for a window that is sharp in a part of it: coarse everywhere, then fine there.
+pub fn ladder_within(settings: &Settings, region: Region) -> Vec<Pass> {
+    let mut passes = ladder(settings, Audience::Window);
+    let fine = passes.iter_mut().filter(|pass| pass.stride == 1);
+    fine.for_each(|pass| pass.region = Some(region));
+    passes
 }
 
 /// Renders one pass in the calling thread's rayon pool, tiles from the centre of the picture outwards, and hands
@@ -94,7 +148,7 @@ pub fn render_pass(
         return true;
     };
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
-    for_each_tile(&centre_out(rays), rays, TILE, |corner, size| {
+    for_each_tile(&pass.tiles(rays), rays, TILE, |corner, size| {
         render_tile(&packets, pass, corner, size, cancel).map(sink)
     })
 }
@@ -161,7 +215,7 @@ fn for_each_tile(
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     rayon::broadcast(|_| {
         while let Some(&corner) = corners.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let size = [0, 1].map(|axis| side.min(rays[axis] - corner[axis]));
+            let size = tile_size(corner, rays, side);
             if work(corner, size).is_none() {
                 stopped.store(true, Ordering::Relaxed);
             }

@@ -83,6 +83,7 @@ fn rays(scene: &Scene, plan: &Plan, sample: u32) -> Vec<[f64; 3]> {
         sample,
         samples: SAMPLES,
         step_voxels: 1.0,
+        region: None,
     };
     let film = Mutex::new(Film::new(SIZE));
     // The first ray of a film is shown as it is.
@@ -209,6 +210,7 @@ fn a_cancelled_picture_of_higher_orders_gives_no_tile() {
         sample: 0,
         samples: 1,
         step_voxels: 1.0,
+        region: None,
     };
     let passed = Cancel::when_passed(Arc::new(1.into()), 0);
     let tiles = Mutex::new(0);

@@ -3,12 +3,12 @@
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, pos2, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT as _, Queryable};
 use sootlight::app::App;
 use sootlight::project::{CameraSettings, Project};
 use sootlight::scene::Camera;
 
-use super::{window, window_of};
+use super::{settle, window, window_of};
 
 /// A place on the picture, and another.
 const HERE: Pos2 = pos2(84.0, 120.0);
@@ -144,6 +144,64 @@ fn home_frames_all_from_the_side_that_is_seen() {
         }
     );
     assert_eq!(camera(&harness), first);
+}
+
+#[test]
+fn a_frame_that_is_dragged_is_sharpened_alone() {
+    let mut harness = window_of(Project::default(), [900.0, 700.0]);
+    let first = camera(&harness);
+    let sharp = |harness: &Harness<'_, App>| {
+        let strides = harness.state().picture().strides();
+        strides.iter().filter(|stride| **stride == 1).count()
+    };
+    let all = sharp(&harness);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::B);
+    harness.run_steps(2);
+    harness.get_by_label("drag a frame over the picture");
+    drag(&mut harness, PointerButton::Primary, Modifiers::NONE);
+    settle(&mut harness);
+    assert_eq!(camera(&harness), first, "the drag was for the frame");
+    let some = sharp(&harness);
+    assert!(some > 0 && some < all / 2, "{some} of {all}");
+    // The next drag turns the camera again, and the frame stays.
+    drag(&mut harness, PointerButton::Primary, Modifiers::NONE);
+    settle(&mut harness);
+    assert_ne!(camera(&harness), first);
+    assert_eq!(sharp(&harness), some);
+    harness.get_by_label("whole picture").click_accesskit();
+    harness.run_steps(2);
+    settle(&mut harness);
+    assert_eq!(sharp(&harness), all);
+
+    // A second thought.
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::B);
+    harness.run_steps(2);
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    harness.get_by_label("a region");
+}
+
+#[test]
+fn the_picture_pauses_and_goes_on() {
+    let mut harness = window_of(Project::default(), [900.0, 700.0]);
+    assert!(
+        harness.get_by_label("Pause").accesskit_node().is_disabled(),
+        "there is nothing to pause"
+    );
+    harness.state_mut().document_mut().project.soot.amount = 1.5;
+    harness.run_steps(1);
+    harness.key_press(Key::P);
+    harness.run_steps(2);
+    harness.get_by_label("Go on").click_accesskit();
+    harness.run_steps(2);
+    settle(&mut harness);
+    // What is changed is seen, whatever paused.
+    harness.state_mut().document_mut().project.soot.amount = 2.0;
+    harness.run_steps(1);
+    harness.key_press(Key::P);
+    harness.run_steps(2);
+    harness.state_mut().document_mut().project.soot.amount = 2.5;
+    settle(&mut harness);
 }
 
 #[test]

@@ -9,9 +9,9 @@ use super::order::Wish;
 use crate::app::Document;
 use crate::export::Format;
 use crate::project::Project;
-use crate::range::{self, Gate, Outcome, RangeError, Taken};
+use crate::range::{self, Outcome, RangeError, Taken};
 use crate::render::develop::Metering;
-use crate::render::{Cancel, Effects, Flaws};
+use crate::render::{Cancel, Effects, Flaws, Gate};
 use crate::sequence::Sequence;
 
 /// Frames to be written.

@@ -58,6 +58,11 @@ const HANDS: &[Section] = &[
             ("S", "spectrum under the pointer; a click keeps the pixel"),
             ("H", "histogram, and what is clipped"),
             ("C", "what accuracy costs; a click on a dot adopts it"),
+            (
+                "Ctrl+B, Ctrl+Alt+B",
+                "sharpen a region, which a drag frames; the whole picture",
+            ),
+            ("P", "pause the picture, and go on"),
             ("K, E", "map of what each pixel costs, of its error"),
             ("G, W, Q", "grab a snapshot; wipe against it; flip to it"),
         ],

@@ -35,6 +35,7 @@ use super::closing::Close;
 use super::exporter::Wish;
 use super::maps::Map;
 use super::recent::Recent;
+use super::region::RegionFrame;
 use super::snapshots::{Snapshots, Way};
 use super::timeline::Step;
 use crate::project::{Control, Job, Mend, Preset, why_idle};
@@ -81,6 +82,12 @@ pub(super) enum Command {
     Adopt(Numbers),
     /// Show a map over the picture, or take it away.
     ToggleMap(Map),
+    /// Sharpen only a part of the picture, which the next drag over it frames; or do not frame one.
+    ChooseRegion,
+    /// Sharpen all of the picture.
+    WholePicture,
+    /// Let the picture pause, or go on.
+    PausePicture,
     /// Keep the picture with all that is set.
     GrabSnapshot,
     /// Compare the picture with a snapshot this way, or no more.
@@ -157,6 +164,8 @@ pub(super) struct Beside<'a> {
     pub(super) told: Option<&'a Told>,
     /// The map over the picture.
     pub(super) map: Option<Map>,
+    /// The part of it that is sharpened.
+    pub(super) region: &'a RegionFrame,
     pub(super) snapshots: &'a Snapshots,
     pub(super) recent: &'a Recent,
 }

@@ -8,6 +8,7 @@ use super::knob::{Choice, Knob};
 use super::{Beside, Command, Known, section, short, unit};
 use crate::app::accuracy::Told;
 use crate::app::maps::Map;
+use crate::app::region::RegionFrame;
 use crate::app::theme::IDLE;
 use crate::project::{Project, Quality, RenderSettings, ranges};
 use crate::render::{Effects, Switch};
@@ -32,6 +33,7 @@ pub(super) fn show(
             by_cause(ui, render, &mut project.effects, known, told);
         }
         maps(ui, beside.map, commands);
+        region(ui, beside.region, commands);
         // What is not set by hand is as chosen, or as for a scene that nobody has looked at yet.
         let here = known.job.map(|job| Numbers::of(&job.settings));
         step(ui, render, here);
@@ -39,6 +41,30 @@ pub(super) fn show(
         rays(ui, render, here);
         between_voxels(ui, &mut render.interpolation);
         orders(ui, &mut render.scattering_orders);
+    });
+}
+
+/// Which part of the picture is sharpened.
+fn region(ui: &mut Ui, region: &RegionFrame, commands: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("sharpen").color(IDLE));
+        let is_whole = !region.is_set() && !region.is_choosing();
+        let whole = ui.selectable_label(is_whole, "whole picture");
+        let tip = "Key: Ctrl+Alt+B";
+        if whole.on_hover_text(tip).clicked() {
+            commands.push(Command::WholePicture);
+        }
+        let words = if region.is_choosing() {
+            "drag a frame over the picture"
+        } else {
+            "a region"
+        };
+        let part = ui.selectable_label(!is_whole, words);
+        let tip = "Only what lies in a frame that you drag over the picture: it is sharp sooner, and the rest stays coarse. \
+                   An export is of all of it. Key: Ctrl+B";
+        if part.on_hover_text(tip).clicked() {
+            commands.push(Command::ChooseRegion);
+        }
     });
 }
 

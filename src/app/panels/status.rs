@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use egui::{Align, Frame, Label, Layout, Margin, Panel, ProgressBar, RichText, Ui, vec2};
+use egui::{Align, Button, Frame, Label, Layout, Margin, Panel, ProgressBar, RichText, Ui, vec2};
 
 use super::Command;
 use super::quality::short_de;
@@ -35,6 +35,7 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>
                 if let Some(load) = app.loader.loading() {
                     loading(ui, &load, commands);
                 } else {
+                    pausing(ui, app, commands);
                     rendering(ui, app);
                 }
                 let flaws = app.flaws();
@@ -91,6 +92,26 @@ fn loading(ui: &mut Ui, loading: &Loading<'_>, commands: &mut Vec<Command>) {
     }
     let words = format!("{:.0} %  Reading {}…", 100.0 * loading.share, loading.words);
     ui.add(Label::new(words).truncate());
+}
+
+/// A way to let the picture pause while it is rendered.
+fn pausing(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
+    let (words, tip) = if app.engine.pauses() {
+        (
+            "Go on",
+            "The picture pauses. It goes on with the next change as well (P).",
+        )
+    } else {
+        (
+            "Pause",
+            "Leaves the machine to something else; the picture stays as far as it is (P).",
+        )
+    };
+    let button = Button::new(words).min_size(vec2(52.0, 0.0));
+    let button = ui.add_enabled(app.is_working(), button);
+    if button.on_hover_text(tip).clicked() {
+        commands.push(Command::PausePicture);
+    }
 }
 
 fn bar(ui: &mut Ui, share: f32) {
@@ -303,6 +324,7 @@ mod tests {
                 sample: 0,
                 samples: 1,
                 step_voxels,
+                region: None,
             })
             .to_vec();
         Progress {

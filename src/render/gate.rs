@@ -1,14 +1,15 @@
-//! Where a range pauses.
+//! Where a render pauses.
 
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::render::Cancel;
+use super::Cancel;
 
-/// How often a range that pauses looks whether it was cancelled.
+/// How often what pauses looks whether it was cancelled.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// A gate before each frame: the one in hand is finished, the next waits while the gate is shut.
+/// A gate before each piece of work, such as a tile or a frame: the one in hand is finished, the next waits while the gate is
+/// shut.
 #[derive(Debug, Default)]
 pub struct Gate {
     shut: Mutex<bool>,
@@ -28,7 +29,7 @@ impl Gate {
     }
 
     /// Waits until it is open, or nobody wants to pass any more.
-    pub(super) fn pass(&self, cancel: &Cancel) {
+    pub fn pass(&self, cancel: &Cancel) {
         let mut shut = self.shut.lock().unwrap_or_else(PoisonError::into_inner);
         while *shut && !cancel.is_cancelled() {
             let waited = self.opened.wait_timeout(shut, LOOK);
