@@ -16,7 +16,7 @@ use super::snapshots::{MOST, Way};
 use super::timeline::Step;
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
-const SHORTCUTS: [(Modifiers, Key, Command); 20] = [
+const SHORTCUTS: [(Modifiers, Key, Command); 21] = [
     (
         Modifiers::COMMAND.plus(Modifiers::SHIFT),
         Key::Z,
@@ -43,6 +43,7 @@ const SHORTCUTS: [(Modifiers, Key, Command); 20] = [
     (Modifiers::NONE, Key::N, Command::TogglePanel),
     (Modifiers::NONE, Key::S, Command::ToggleSpectrum),
     (Modifiers::NONE, Key::H, Command::ToggleLevels),
+    (Modifiers::NONE, Key::V, Command::ToggleVolume),
     (Modifiers::NONE, Key::C, Command::ToggleAccuracy),
     (Modifiers::NONE, Key::K, Command::ToggleMap(Map::Cost)),
     (Modifiers::NONE, Key::E, Command::ToggleMap(Map::Error)),
@@ -80,6 +81,7 @@ impl App {
                 }
                 Command::TogglePanel => self.panels.hidden = !self.panels.hidden,
                 Command::ToggleSpectrum => self.plots.toggle(),
+                Command::ToggleVolume => self.plots.toggle_volume(),
                 Command::ToggleLevels => self.plots.toggle_levels(),
                 Command::ToggleAccuracy => self.plots.toggle_accuracy(),
                 Command::Adopt(numbers) => self

@@ -25,6 +25,7 @@ mod packing;
 pub mod quadrature;
 pub mod refractivity;
 pub mod salt;
+pub mod slice;
 mod source;
 pub mod stage;
 

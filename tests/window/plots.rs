@@ -127,6 +127,39 @@ fn the_histogram_tells_what_is_black_and_what_is_clipped() {
 }
 
 #[test]
+fn a_plane_through_the_volume_is_cut_where_it_is_wanted() {
+    let mut harness = window_of(Project::default(), SIZE);
+    harness.key_press(Key::V);
+    harness.run_steps(3);
+    let plane = harness.get_by_label("Plane of the volume across y").rect();
+    harness.get_by_label("Hottest soot of each plane");
+    // Where the flame is there is soot, and it is hot.
+    let middle = plane.min + plane.size() * egui::vec2(0.5, 0.6);
+    point_at(&mut harness, middle);
+    let words = label_with(&mut harness, "ppm");
+    let kelvin: f64 = words
+        .split_once("   ")
+        .and_then(|(_, told)| told.split(' ').next()?.parse().ok())
+        .unwrap();
+    assert!((1000.0..2500.0).contains(&kelvin), "{words}");
+    // At the end of the box there is none.
+    set_slider(&mut harness, "Place of the plane", 0.0);
+    harness.run_steps(2);
+    point_at(&mut harness, middle);
+    let words = label_with(&mut harness, " m   ");
+    assert!(
+        words.contains("clear air") || words.contains("soot 0 ppm"),
+        "{words}"
+    );
+    harness.get_by_label("Soot fraction").click_accesskit();
+    harness.run_steps(2);
+    harness.get_by_label("Mean soot of each plane");
+    harness.get_by_label("x").click_accesskit();
+    harness.run_steps(2);
+    harness.get_by_label("Plane of the volume across x");
+}
+
+#[test]
 fn the_pixel_under_the_pointer_is_read() {
     let mut harness = plots();
     harness.get_by_label("Point at the picture");

@@ -57,6 +57,7 @@ const HANDS: &[Section] = &[
             ("double click, 0", "fit it"),
             ("S", "spectrum under the pointer; a click keeps the pixel"),
             ("H", "histogram, and what is clipped"),
+            ("V", "a plane through the volume, and its profile"),
             ("C", "what accuracy costs; a click on a dot adopts it"),
             (
                 "Ctrl+B, Ctrl+Alt+B",

@@ -76,6 +76,8 @@ pub(super) enum Command {
     ToggleSpectrum,
     /// Show the histogram, or hide it.
     ToggleLevels,
+    /// Show a cut through the volume, or hide it.
+    ToggleVolume,
     /// Show what accuracy costs, or hide it.
     ToggleAccuracy,
     /// Render with these numbers from here on.

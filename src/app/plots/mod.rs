@@ -9,11 +9,13 @@ mod chart;
 mod levels;
 mod optics;
 mod pixel;
+mod slice;
 
 use egui::{Context, Id, ScrollArea, Ui, Window, vec2};
 
 use self::optics::OpticsPlots;
 use self::pixel::PixelPlot;
+use self::slice::SlicePlot;
 use super::accuracy::{Accuracy, Told};
 use super::canvas::PicturePlace;
 use super::panels::Command;
@@ -53,6 +55,8 @@ enum Tab {
     Levels,
     /// The optics of a place in the fire.
     FuelAndAir,
+    /// What is in the volume.
+    Volume,
     /// What accuracy costs.
     Accuracy,
 }
@@ -64,6 +68,7 @@ pub(super) struct Plots {
     tab: Tab,
     pixel: PixelPlot,
     optics: OpticsPlots,
+    slice: SlicePlot,
 }
 
 impl Plots {
@@ -84,6 +89,12 @@ impl Plots {
     /// Whether the histogram is on show.
     pub(super) fn shows_levels(&self) -> bool {
         self.is_open && self.tab == Tab::Levels
+    }
+
+    /// Opens the cut through the volume, or closes the window if it is that.
+    pub(super) fn toggle_volume(&mut self) {
+        self.is_open = !(self.is_open && self.tab == Tab::Volume);
+        self.tab = Tab::Volume;
     }
 
     /// Opens the histogram, or closes the window if it is that.
@@ -126,6 +137,7 @@ impl Plots {
         let title = match self.tab {
             Tab::Accuracy => "Accuracy",
             Tab::Levels => "Histogram",
+            Tab::Volume => "Volume",
             Tab::Pixel | Tab::FuelAndAir => "Spectrum",
         };
         Window::new(title)
@@ -145,6 +157,7 @@ impl Plots {
                             Tab::Pixel => self.pixel.show(ui, engine, view, place),
                             Tab::Levels => levels::show(ui, shown.film, view),
                             Tab::FuelAndAir => self.optics.show(ui, job),
+                            Tab::Volume => self.slice.show(ui, engine),
                             Tab::Accuracy => {
                                 accuracy::show(ui, shown.accuracy, job, shown.told, commands);
                             }
@@ -174,6 +187,11 @@ impl Plots {
                     Tab::FuelAndAir,
                     "Fuel and air",
                     "What a place in the fire does to light of each wavelength: it emits, absorbs, scatters and bends it.",
+                ),
+                (
+                    Tab::Volume,
+                    "Volume",
+                    "What is in the volume: temperature and soot on a plane through it, and their profile.",
                 ),
                 (
                     Tab::Accuracy,
