@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::history::History;
 use crate::colour::display::View;
-use crate::project::{Accuracy, Backdrops, CameraSettings, Job, Project, ViewSettings};
+use crate::project::{Accuracy, Backdrops, Job, Project, ViewSettings};
 use crate::render::Facts;
 use crate::render::costs::Cost;
 use crate::render::develop::Metering;
@@ -237,7 +237,7 @@ impl Document {
 
     /// Looks from here on with this camera, whatever the flame's size.
     pub fn move_camera(&mut self, camera: &Camera) {
-        self.project.camera = CameraSettings::from(camera);
+        self.project.camera.look_with(camera);
     }
 
     /// Moves the camera so that all of the flame is seen, from the side that it is seen from now. From the front that
@@ -245,11 +245,7 @@ impl Document {
     pub fn frame_all(&mut self) {
         let Some(job) = &self.job else { return };
         if job.camera.is_at_the_front() {
-            self.project.camera = CameraSettings {
-                fov_deg: self.project.camera.fov_deg,
-                roll_deg: self.project.camera.roll_deg,
-                ..CameraSettings::default()
-            };
+            self.project.camera.frame_the_flame();
             return;
         }
         let placement = &job.flame.placement;

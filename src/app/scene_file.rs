@@ -8,8 +8,8 @@ use std::sync::{Arc, Weak};
 
 use super::App;
 use super::words::with_causes;
-use crate::project::Project;
 use crate::project::file::SceneFileError;
+use crate::project::{CameraSettings, Project};
 use crate::volume::Volume;
 
 /// Ending of a scene file's name.
@@ -97,7 +97,10 @@ impl SceneFile {
         };
         let mut kept = scene.kept.clone();
         if scene.path.is_none() {
-            kept.camera = project.camera.clone();
+            kept.camera = CameraSettings {
+                views: kept.camera.views,
+                ..project.camera.clone()
+            };
         }
         if is_same_fire(&kept, project) {
             kept.volume.path.clone_from(&project.volume.path);

@@ -12,6 +12,9 @@ impl Project {
     /// [`ProjectError`] names the key, its value and its range.
     pub fn check(&self) -> Result<(), ProjectError> {
         self.check_ranges()?;
+        for view in &self.camera.views {
+            view.camera().view([1, 1])?;
+        }
         self.settings(self.render.size)?;
         Ok(())
     }

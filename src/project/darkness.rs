@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use super::job::Job;
-use super::settings::{CameraSettings, FieldSettings, Project};
+use super::settings::{FieldSettings, Project};
 use crate::math::Aabb;
 use crate::scene::glow::VAPOUR_K;
 use crate::scene::{Fuel, GlowParams, Salt, flame};
@@ -233,11 +233,7 @@ impl Mend {
                 };
             }
             Self::Camera => {
-                project.camera = CameraSettings {
-                    fov_deg: project.camera.fov_deg,
-                    roll_deg: project.camera.roll_deg,
-                    ..CameraSettings::default()
-                };
+                project.camera.frame_the_flame();
             }
         }
     }

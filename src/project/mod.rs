@@ -28,8 +28,8 @@ pub use idle::{Control, why_idle};
 pub use job::Job;
 pub use presets::{PRESETS, Preset, THUMBNAIL};
 pub use settings::{
-    AirSettings, BackdropKind, CameraSettings, FieldSettings, FuelSettings, Project, Quality,
-    RenderSettings, Saturation, SmokeSettings, SootSettings, StageSettings, Up, ViewSettings,
-    VolumeSettings,
+    AirSettings, BackdropKind, CameraSettings, FieldSettings, FuelSettings, NamedView, Project,
+    Quality, RenderSettings, Saturation, SmokeSettings, SootSettings, StageSettings, Up,
+    ViewSettings, VolumeSettings,
 };
 pub use stage::StageDefaults;

@@ -241,6 +241,77 @@ pub struct CameraSettings {
     /// Turn of the camera about its line of sight, degrees clockwise; 0 if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roll_deg: Option<f64>,
+    /// Views that were kept by a name, in the order in which they are offered.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub views: Vec<NamedView>,
+}
+
+/// A camera that was kept by a name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NamedView {
+    /// What a person calls it.
+    pub name: String,
+    /// Position of the eye, m.
+    pub eye: DVec3,
+    /// The point in the middle of the picture, m.
+    pub target: DVec3,
+    /// What is up in the picture.
+    pub up: DVec3,
+    /// Vertical field of view, degrees.
+    pub fov_deg: f64,
+    /// Turn about the line of sight, degrees clockwise.
+    #[serde(default)]
+    pub roll_deg: f64,
+}
+
+impl NamedView {
+    /// A camera by a name.
+    pub fn new(name: &str, camera: &Camera) -> Self {
+        Self {
+            name: name.to_owned(),
+            eye: camera.eye,
+            target: camera.target,
+            up: camera.up,
+            fov_deg: camera.fov_deg,
+            roll_deg: camera.roll_deg,
+        }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> Camera {
+        Camera {
+            eye: self.eye,
+            target: self.target,
+            up: self.up,
+            fov_deg: self.fov_deg,
+            roll_deg: self.roll_deg,
+        }
+    }
+}
+
+impl CameraSettings {
+    /// This very camera from here on, whatever the flame's size; views that were kept stay.
+    pub fn look_with(&mut self, camera: &Camera) {
+        *self = Self {
+            views: std::mem::take(&mut self.views),
+            ..Self::from(camera)
+        };
+    }
+
+    /// Frames the flame from here on; lens, roll and the views that were kept stay.
+    pub fn frame_the_flame(&mut self) {
+        (self.eye, self.target, self.up) = (None, None, None);
+    }
+
+    /// Keeps a camera by a name, in the place of one that had it.
+    pub fn keep_view(&mut self, name: &str, camera: &Camera) {
+        let view = NamedView::new(name, camera);
+        match self.views.iter_mut().find(|known| known.name == name) {
+            Some(known) => *known = view,
+            None => self.views.push(view),
+        }
+    }
 }
 
 impl From<&Camera> for CameraSettings {
@@ -252,6 +323,7 @@ impl From<&Camera> for CameraSettings {
             up: Some(camera.up),
             fov_deg: Some(camera.fov_deg),
             roll_deg: (camera.roll_deg != 0.0).then_some(camera.roll_deg),
+            views: Vec::new(),
         }
     }
 }
@@ -301,6 +373,14 @@ pub(super) fn everything_set() -> Project {
             up: Some(DVec3::Z),
             fov_deg: Some(40.0),
             roll_deg: Some(-12.5),
+            views: vec![NamedView {
+                name: "close \"up\"".to_owned(),
+                eye: DVec3::new(0.1, -2.0, 0.3),
+                target: DVec3::ZERO,
+                up: DVec3::Z,
+                fov_deg: 20.0,
+                roll_deg: 3.0,
+            }],
         },
         render: RenderSettings {
             size: [640, 360],

@@ -2,7 +2,7 @@
 
 use crate::math::Aabb;
 use crate::project::settings::VolumeSettings;
-use crate::project::{BackdropKind, CameraSettings, FieldSettings, Job, Project, Up};
+use crate::project::{BackdropKind, FieldSettings, Job, Project, Up};
 use crate::scene::flame;
 use crate::volume::{FieldKind, FieldMap, FieldMaps, Producer, UpAxis};
 
@@ -148,7 +148,7 @@ impl Taken {
 
     fn hold_view(&self, project: &mut Project) {
         let camera = project.camera(&self.fire, project.render.size);
-        project.camera = CameraSettings::from(&camera);
+        project.camera.look_with(&camera);
         let defaults = project.stage.defaults(&self.fire, &camera);
         let stage = &mut project.stage;
         if stage.ground {

@@ -67,8 +67,8 @@ impl Along {
             let at = local.at(distance_m);
             let [soot, temperature_k] = medium.sample(at);
             let smoke = medium.smoke(at);
-            let scattering = (1.0 - smoke) * of_soot + smoke * of_smoke;
-            depth += soot * (absorption + scattering) * step_m;
+            let scattering = of_soot * (soot - smoke) + of_smoke * smoke;
+            depth += (absorption * soot + scattering) * step_m;
             Place {
                 distance_m,
                 temperature_k,

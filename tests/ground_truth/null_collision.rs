@@ -6,13 +6,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use glam::{DAffine3, DVec3, IVec3};
+use sootlight::physics::blackbody;
 use sootlight::project::{Preset, Project};
 use sootlight::render::march::Marcher;
-use sootlight::render::null_collision::{Estimate, NullCollision, Params};
+use sootlight::render::null_collision::{Estimate, NullCollision, Params, Scattering};
 use sootlight::render::{Plan, Switch};
-use sootlight::scene::{Scene, WavelengthSet};
+use sootlight::scene::{Camera, Scene, WavelengthSet};
 use sootlight::spectral::Wavelengths;
-use sootlight::volume::{self, BuiltIn, Limits};
+use sootlight::volume::{self, Border, BuiltIn, Grid, Limits, Volume};
 
 use super::super::common;
 use super::z_test::Comparison;
@@ -91,6 +93,51 @@ fn assert_agreement(name: &str, scene: &Scene, samples: u32) {
             !found.all_agree(),
             "{name}: {planted} goes unseen: {found:?}"
         );
+    }
+}
+
+/// A brick of voxels of 10 km with soot in one corner, as dense as an artist can make it: its empty part is crossed by paths
+/// whose collisions are all with nothing, a hundred million times in a voxel if nobody stops them.
+#[test]
+fn the_clear_part_of_a_brick_with_soot_beyond_measure_is_crossed_in_a_moment() {
+    let grid = |name: &str, soot: f32, clear: f32| {
+        let scale = DAffine3::from_scale(DVec3::splat(1e4));
+        Grid::from_fn(name, IVec3::splat(8), scale, Border::Clamp, 0.0, |at| {
+            if at == IVec3::ZERO { soot } else { clear }
+        })
+    };
+    let grids = vec![grid("soot", 1e-4, 0.0), grid("temperature", 1800.0, 1800.0)];
+    // Past the corner, through what is clear.
+    let camera = Camera {
+        eye: DVec3::new(5e4, -1e5, 5e4),
+        target: DVec3::splat(5e4),
+        up: DVec3::Z,
+        fov_deg: 1.0,
+        roll_deg: 0.0,
+    };
+    let scene = common::scene(Volume::from_grids(grids, "corner"), camera);
+    let wavelengths = WavelengthSet::Fitted(6).wavelengths(scene.flame.soot());
+    let params = Params {
+        scattering: Scattering::Albedo(0.5),
+        ..Params::default()
+    };
+    let paths = NullCollision::new(&scene, &wavelengths, &params);
+    let clear = paths.render([4, 4], 64, 1).unwrap();
+    assert!(clear.iter().all(|pixel| pixel.mean == [0.0; 3]));
+    // The corner itself is as bright as a black body, where nothing scatters.
+    let mut scene = scene;
+    scene.camera.target = DVec3::ZERO;
+    let paths = NullCollision::new(&scene, &wavelengths, &Params::default());
+    let dense = paths.render([4, 4], 64, 1).unwrap();
+    let planck = |&nm: &f64| blackbody::spectral_radiance(nm, 1800.0);
+    let expected = wavelengths.xyz_of(wavelengths.nodes_nm.iter().map(planck));
+    for pixel in dense {
+        for (found, expected) in pixel.mean.iter().zip(expected) {
+            assert!(
+                (found / expected - 1.0).abs() < 1e-3,
+                "{pixel:?} {expected:?}"
+            );
+        }
     }
 }
 

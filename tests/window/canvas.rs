@@ -182,6 +182,46 @@ fn a_frame_that_is_dragged_is_sharpened_alone() {
 }
 
 #[test]
+fn a_view_is_kept_by_a_name_and_gone_back_to() {
+    let mut harness = window_of(Project::default(), [900.0, 1400.0]);
+    drag(&mut harness, PointerButton::Primary, Modifiers::NONE);
+    let kept = camera(&harness);
+    let field = harness.get_by_role_and_label(Role::TextInput, "Keep view as");
+    field.focus();
+    harness.run_steps(2);
+    harness
+        .get_by_role_and_label(Role::TextInput, "Keep view as")
+        .type_text("low left");
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+    let views = |harness: &Harness<'_, App>| {
+        let views = &harness.state().document().project.camera.views;
+        views
+            .iter()
+            .map(|view| view.name.clone())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(views(&harness), ["low left"]);
+    // Other moves leave it.
+    harness.key_press(Key::Num1);
+    harness.key_press(Key::Home);
+    harness.run_steps(3);
+    assert_ne!(camera(&harness), kept);
+    assert_eq!(views(&harness), ["low left"]);
+    harness.get_by_label("low left").click_accesskit();
+    harness.run_steps(3);
+    assert_eq!(camera(&harness), kept);
+    let text = harness.state().document().project.to_toml();
+    assert!(text.contains("[[camera.views]]"), "{text}");
+    harness
+        .get_by_label("Forget view low left")
+        .click_accesskit();
+    harness.run_steps(3);
+    assert!(views(&harness).is_empty());
+}
+
+#[test]
 fn the_picture_pauses_and_goes_on() {
     let mut harness = window_of(Project::default(), [900.0, 700.0]);
     assert!(
@@ -311,7 +351,9 @@ fn the_buttons_do_what_they_are_called() {
 fn what_is_typed_into_a_field_moves_nothing() {
     let mut harness = window(Project::default());
     let before = camera(&harness);
-    harness.get_by_role(Role::TextInput).focus();
+    harness
+        .get_by_role_and_label(Role::TextInput, "Keep view as")
+        .focus();
     harness.run_steps(2);
     harness.key_press(Key::Num3);
     harness.key_press(Key::Plus);

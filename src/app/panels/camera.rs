@@ -1,8 +1,8 @@
 //! The lens, and the shape of the picture. The camera itself is moved on the canvas.
 
-use egui::Ui;
+use egui::{Id, Key, Role, TextEdit, Ui, WidgetInfo};
 
-use super::knob::{Choice, Knob, note};
+use super::knob::{Choice, Knob, name, note};
 use super::{section, unit};
 use crate::app::Document;
 use crate::project::ranges;
@@ -42,11 +42,58 @@ pub(super) fn show(ui: &mut Ui, document: &mut Document) {
             idle: None,
         }
         .show(ui, &mut document.fixed_size);
+        views(ui, document);
         note(
             ui,
             "Drag the picture to orbit, with Shift to pan; the wheel moves nearer; Home frames all of the fire.",
         );
     });
+}
+
+/// Views that were kept by a name, and a field to keep the present one.
+fn views(ui: &mut Ui, document: &mut Document) {
+    let Some(camera) = document.last_job().map(|job| job.camera) else {
+        return;
+    };
+    let (mut go_to, mut forget) = (None, None);
+    let kept = &document.project.camera.views;
+    ui.horizontal_wrapped(|ui| {
+        for (i, view) in kept.iter().enumerate() {
+            let is_here = view.camera() == camera;
+            let button = ui.selectable_label(is_here, &view.name);
+            if button.on_hover_text("Look from there again.").clicked() {
+                go_to = Some(view.camera());
+            }
+            let cross = ui.small_button("×").on_hover_text("Forget this view.");
+            let label = format!("Forget view {}", view.name);
+            cross.widget_info(|| WidgetInfo::labeled(Role::Button, true, label.as_str()));
+            if cross.clicked() {
+                forget = Some(i);
+            }
+        }
+    });
+    if let Some(camera) = go_to {
+        document.move_camera(&camera);
+    }
+    if let Some(i) = forget {
+        document.project.camera.views.remove(i);
+    }
+    let id = Id::unique("view to be kept");
+    let mut typed = ui.data_mut(|data| data.get_temp::<String>(id).unwrap_or_default());
+    let tip = "Keeps where the camera stands and what lens it has, by a name; a scene file holds it as well.";
+    ui.horizontal(|ui| {
+        let name = name(ui, "Keep view as", tip);
+        let field = TextEdit::singleline(&mut typed)
+            .hint_text("a name, then Enter")
+            .desired_width(f32::INFINITY);
+        let field = ui.add(field).labelled_by(name.id).on_hover_text(tip);
+        let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        if enters && !typed.trim().is_empty() {
+            document.project.camera.keep_view(typed.trim(), &camera);
+            typed.clear();
+        }
+    });
+    ui.data_mut(|data| data.insert_temp(id, typed));
 }
 
 fn lens(ui: &mut Ui, document: &mut Document) {

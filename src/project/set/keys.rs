@@ -311,6 +311,11 @@ pub const KEYS: &[Key] = &[
         "turn about the line of sight, clockwise",
     ),
     key(
+        "camera.views",
+        "a list of views, such as [{ name = \"left\", eye = [-2, 0, 1], target = [0, 0, 1], up = [0, 0, 1], fov_deg = 30 }]",
+        "views to go back to in the window",
+    ),
+    key(
         "render.size",
         "two whole numbers of pixels, such as [1280, 720]",
         "width and height of a still",

@@ -17,7 +17,8 @@
 //! nothing had been there. Any rate gives the right mean (Novák et al. 2014), so it is raised where the brick may glow:
 //! a flight whose light counts spends [`Params::emission_points`] collisions more in proportion to the glow of what it
 //! crosses, and one that may scatter no fewer than [`Params::scattering_points`] in proportion to its extinction. Bricks in
-//! which nothing shows are jumped over.
+//! which nothing shows are jumped over. Soot of which a voxel's edge is more than a hundred optical depths deep counts as that
+//! deep: it is opaque either way, a hundredth of a voxel below its surface.
 //!
 //! *Wavelengths.* All of them travel on one path. The decisions are made with the optics of one, chosen evenly, and
 //! each wavelength's light is divided by the mean over all choices of the probability of what happened: the balance

@@ -26,6 +26,8 @@ pub(super) struct Tracer<'a> {
     medium: &'a Medium,
     optics: Optics,
     bounds: Vec<Bounds>,
+    /// Extinction above which a place counts as no denser, 1/m.
+    densest: f64,
     max_bounces: u32,
     min_bounces: u32,
     /// Spectral radiance of the surroundings at each wavelength.
@@ -34,6 +36,11 @@ pub(super) struct Tracer<'a> {
     scattering_points: f64,
     surfaces: Surfaces<'a>,
 }
+
+/// Optical depth of a voxel's edge beyond which soot counts as no denser. What lies a hundredth of a voxel behind such soot's
+/// surface is not seen either way, and a path that crosses the clear part of a brick must not collide with nothing a thousand
+/// million times.
+const DENSEST: f64 = 1e2;
 
 /// How a flight between two scatterings ends.
 enum Flight {
@@ -58,10 +65,16 @@ impl<'a> Tracer<'a> {
     pub(super) fn new(scene: &'a Scene, wavelengths: &Wavelengths, params: &Params) -> Self {
         let flame = &scene.flame;
         let optics = Optics::new(flame, wavelengths, params);
+        let densest = DENSEST / flame.medium().voxel_size_m();
+        let mut bounds = bricks::bounds(flame.medium(), &optics);
+        for bound in &mut bounds {
+            bound.extinction = bound.extinction.min(densest);
+        }
         let shine = |&nm: &f64| params.environment.radiance(nm);
         Self {
             medium: flame.medium(),
-            bounds: bricks::bounds(flame.medium(), &optics),
+            bounds,
+            densest,
             max_bounces: if optics.scatters() {
                 params.max_bounces
             } else {
@@ -189,12 +202,18 @@ impl<'a> Tracer<'a> {
     /// What the medium holds at a point of the lattice.
     fn place(&self, position: DVec3) -> Place {
         let [soot, kelvin] = self.medium.sample(position);
-        Place {
+        let mut place = Place {
             soot,
             kelvin,
             flame: self.medium.flame(position),
             smoke: self.medium.smoke(position),
+        };
+        let denser = self.optics.extinction(&place) / self.densest;
+        if denser > 1.0 {
+            place.soot /= denser;
+            place.smoke /= denser;
         }
+        place
     }
 
     /// X, Y, Z of what [`Tracer::trace`] brought.
