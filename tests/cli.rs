@@ -141,6 +141,74 @@ fn an_exr_holds_the_light_and_what_it_passed_through() {
     );
 }
 
+/// A channel of an EXR, row by row.
+fn channel(path: &Path, name: &str) -> Vec<f32> {
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(path)
+        .unwrap();
+    let channels = &image.layer_data.channel_data.list;
+    let found = channels.iter().find(|channel| channel.name.eq(name));
+    let FlatSamples::F32(values) = &found.unwrap().sample_data else {
+        panic!("{name} is not f32")
+    };
+    values.clone()
+}
+
+#[test]
+fn a_fire_comps_over_a_plate_as_if_it_stood_before_it() {
+    let place = Place::new();
+    let render = |name: &str, sets: &str| {
+        // The numbers that are chosen for a scene are not those of another. One ray a pixel: within a pixel at the fire's edge
+        // no alpha can say which part of the plate is hidden.
+        let numbers = "--set render.step_voxels=0.5 --set render.wavelengths=8 --set render.samples_per_pixel=1";
+        let straight = "--set effects.refraction=off --set effects.scattering=off";
+        let words = format!("{SMALL} -o {name}.exr {straight} {numbers} {sets}");
+        place.expect(0, &words);
+        place.path(&format!("{name}.exr"))
+    };
+    let plate_of = "--set stage.backdrop=gradient --set stage.backdrop_luminance_cd_m2=3e4";
+    let fire = render("fire", "--set soot.amount=100");
+    let plate = render("plate", &format!("{plate_of} --set soot.amount=0"));
+    let both = render("both", &format!("{plate_of} --set soot.amount=100"));
+    let alpha = channel(&fire, "A");
+    let deepest = alpha.iter().copied().fold(0.0, f32::max);
+    assert!(
+        deepest > 0.5,
+        "the plate is seen through all of it: {deepest}"
+    );
+    let through = ["T.R", "T.G", "T.B"].map(|name| channel(&fire, name));
+    let mut luminance = vec![[0.0_f32; 2]; alpha.len()];
+    for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+        let [fire, plate, both] = [&fire, &plate, &both].map(|path| channel(path, name));
+        let brightest = both.iter().copied().fold(0.0, f32::max);
+        for (i, both) in both.iter().enumerate() {
+            // Premultiplied light over a white plate, colour by colour: the same but for the last digits of what white is.
+            let comp = fire[i] + plate[i] * through[c][i];
+            assert!(
+                (comp - both).abs() < 2e-4 * brightest,
+                "{name} of pixel {i}: {comp} {both}"
+            );
+            // With the one alpha that every program knows, luminance is right and blue is a little off.
+            let over = fire[i] + plate[i] * (1.0 - alpha[i]);
+            let weight = [0.2126, 0.7152, 0.0722][c];
+            luminance[i][0] += weight * over;
+            luminance[i][1] += weight * both;
+        }
+    }
+    let brightest = luminance.iter().fold(0.0, |most: f32, [_, y]| most.max(*y));
+    for (i, [over, both]) in luminance.into_iter().enumerate() {
+        assert!(
+            (over - both).abs() < 2e-4 * brightest,
+            "pixel {i}: {over} {both}"
+        );
+    }
+}
+
 #[test]
 fn the_picture_does_not_depend_on_the_number_of_threads() {
     let place = Place::new();

@@ -199,12 +199,17 @@ fn of_the_shared_volumes() {
     ] {
         still(&data, name, &[file, "--size", size]);
     }
-    window(&data, "window_pool.png", &["pool/pool_0022_zip_half.vdb"]);
-    window(
-        &data,
-        "window_embergen.png",
-        &["embergen_cc0/embergen_fire_a_60.vdb"],
-    );
+    let pool = ["pool/pool_0022_zip_half.vdb"];
+    let embergen = ["embergen_cc0/embergen_fire_a_60.vdb"];
+    window(&data, "window_pool.png", &pool);
+    window(&data, "window_embergen.png", &embergen);
+    let press = |key: &str| {
+        format!(
+            "xdotool search --name Sootlight windowfocus; sleep 0.3; xdotool key {key}; sleep 2"
+        )
+    };
+    window_after(&data, "window_histogram.png", &pool, &press("h"));
+    window_after(&data, "window_volume.png", &embergen, &press("v"));
 }
 
 #[test]

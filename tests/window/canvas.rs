@@ -152,7 +152,8 @@ fn a_frame_that_is_dragged_is_sharpened_alone() {
     let first = camera(&harness);
     let sharp = |harness: &Harness<'_, App>| {
         let strides = harness.state().picture().strides();
-        strides.iter().filter(|stride| **stride == 1).count()
+        let is_sharp = |stride: &u8| usize::from(*stride == 1);
+        strides.iter().map(is_sharp).sum::<usize>()
     };
     let all = sharp(&harness);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::B);
