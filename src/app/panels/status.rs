@@ -208,8 +208,8 @@ fn seconds(seconds: f64) -> String {
 
 /// Width of the bar in points.
 const BAR_WIDTH: f32 = 96.0;
-/// Room that is kept for the flaws' words and the two buttons, points.
-const FLAWS_WIDTH: f32 = 260.0;
+/// Room that is kept for the flaws' words and the four buttons, points.
+const FLAWS_WIDTH: f32 = 420.0;
 
 /// What of the picture is not faithful or assumed, always in sight: the first in words, all of them under the pointer.
 fn flaw_words(ui: &mut Ui, flaws: &[&str]) {

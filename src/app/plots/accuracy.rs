@@ -3,9 +3,10 @@
 
 use egui::{Color32, RichText, Role, Sense, Ui, Vec2, WidgetInfo};
 use egui_plot::{
-    GridMark, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, Points,
+    GridMark, HLine, Line, LineStyle, MarkerShape, PlotBounds, PlotPoint, PlotPoints, Points,
 };
 
+use super::chart::still_plot;
 use crate::app::accuracy::{Accuracy, Told};
 use crate::app::panels::{Command, short};
 use crate::app::theme::IDLE;
@@ -59,13 +60,7 @@ pub(super) fn show(
     let label = "Error against seconds";
     let front: Vec<[f64; 2]> = expected.iter().map(|it| of_choice(it)).collect();
     let here = of_choice(&told.here);
-    let plot = Plot::new("accuracy")
-        .height(HEIGHT)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_axis_zoom_drag(false)
+    let plot = still_plot("accuracy", HEIGHT)
         .x_grid_spacer(|seen| decades(seen.bounds))
         .y_grid_spacer(|seen| decades(seen.bounds))
         .x_axis_formatter(|mark, _| format!("{} s", short(10_f64.powf(mark.value))))

@@ -1,8 +1,9 @@
 //! What the ray of one pixel passes: temperature and soot by the distance from the eye.
 
 use egui::{Color32, RichText, Role, Ui, WidgetInfo, vec2};
-use egui_plot::{Line, Plot, PlotPoints};
+use egui_plot::{Line, PlotPoints};
 
+use super::chart::still_plot;
 use crate::app::panels::short;
 use crate::app::theme::IDLE;
 use crate::render::along::{Along, DEPTH_NM, Place};
@@ -43,13 +44,7 @@ pub(super) fn show(ui: &mut Ui, along: &Along) {
             .iter()
             .map(|place| [place.distance_m, value(place)])
             .collect();
-        let plot = Plot::new(label)
-            .height(HEIGHT)
-            .allow_drag(false)
-            .allow_zoom(false)
-            .allow_scroll(false)
-            .allow_boxed_zoom(false)
-            .allow_axis_zoom_drag(false)
+        let plot = still_plot(label, HEIGHT)
             .default_x_bounds(ends[0], ends[1])
             .auto_bounds([true, true])
             .include_y(0.0)

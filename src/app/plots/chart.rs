@@ -1,7 +1,7 @@
 //! What all charts of the window have in common: wavelengths along the bottom, a unit up the side, and nothing that
 //! moves by accident.
 
-use egui::{Color32, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui::{AsIdSalt, Color32, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use egui_plot::{Bar, BarChart, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoints};
 use glam::DVec3;
 
@@ -61,6 +61,17 @@ pub(super) struct Chart<'a> {
     pub(super) in_colour: Option<f64>,
 }
 
+/// A chart in which nothing moves by accident, of this height in points.
+pub(super) fn still_plot<'a>(id: impl AsIdSalt, height: f32) -> Plot<'a> {
+    Plot::new(id)
+        .height(height)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_axis_zoom_drag(false)
+}
+
 impl Chart<'_> {
     /// Draws it over the width there is.
     pub(super) fn show(self, ui: &mut Ui) {
@@ -77,13 +88,7 @@ impl Chart<'_> {
             .collect();
         let words = RichText::new(self.axis).small().color(IDLE);
         // What an empty chart shows must not stay when there is a curve.
-        let mut plot = Plot::new((self.label, is_empty))
-            .height(self.height)
-            .allow_drag(false)
-            .allow_zoom(false)
-            .allow_scroll(false)
-            .allow_boxed_zoom(false)
-            .allow_axis_zoom_drag(false)
+        let mut plot = still_plot((self.label, is_empty), self.height)
             .default_x_bounds(VISIBLE_NM[0], VISIBLE_NM[1])
             .auto_bounds([false, true])
             .set_margin_fraction(vec2(0.0, 0.05))

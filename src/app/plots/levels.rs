@@ -1,8 +1,9 @@
 //! The histogram: how often each level of the display is on show, and what is lost at its ends.
 
 use egui::{Align, Color32, Layout, RichText, Role, Ui, WidgetInfo, vec2};
-use egui_plot::{GridMark, Line, Plot, PlotBounds, PlotPoints};
+use egui_plot::{GridMark, Line, PlotBounds, PlotPoints};
 
+use super::chart::still_plot;
 use crate::app::theme::{IDLE, WARNING};
 use crate::colour::display::View;
 use crate::render::Film;
@@ -33,13 +34,7 @@ pub(super) fn show(ui: &mut Ui, film: &Film, view: &View) {
         percent(levels.clipped[2]),
     );
     let peak = f64::from(levels.peak()).max(f64::MIN_POSITIVE);
-    let plot = Plot::new("levels")
-        .height(HEIGHT)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_axis_zoom_drag(false)
+    let plot = still_plot("levels", HEIGHT)
         .show_y(false)
         .x_grid_spacer(|_| {
             let mark = |value: u32| GridMark {

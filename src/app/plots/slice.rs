@@ -4,8 +4,9 @@ use egui::{
     Color32, ColorImage, Image, RichText, Role, Sense, Slider, TextureHandle, TextureOptions, Ui,
     WidgetInfo, vec2,
 };
-use egui_plot::{Line, Plot, PlotPoints, VLine};
+use egui_plot::{Line, PlotPoints, VLine};
 
+use super::chart::still_plot;
 use crate::app::panels::short;
 use crate::app::theme::IDLE;
 use crate::colour::false_colour::{BLACK, STOPS};
@@ -210,13 +211,7 @@ impl SlicePlot {
         let points: Vec<[f64; 2]> = planes
             .map(|&(at, kelvin, soot)| [at, value(kelvin, soot)])
             .collect();
-        let plot = Plot::new((label, self.axis))
-            .height(PROFILE_HEIGHT)
-            .allow_drag(false)
-            .allow_zoom(false)
-            .allow_scroll(false)
-            .allow_boxed_zoom(false)
-            .allow_axis_zoom_drag(false)
+        let plot = still_plot((label, self.axis), PROFILE_HEIGHT)
             .include_y(0.0)
             .set_margin_fraction(vec2(0.0, 0.05))
             .x_axis_formatter(move |mark, _| format!("{name} {} m", short(mark.value)))
