@@ -226,14 +226,19 @@ fn a_view_is_kept_by_a_name_and_gone_back_to() {
 fn the_picture_pauses_and_goes_on() {
     let mut harness = window_of(Project::default(), [900.0, 700.0]);
     assert!(
-        harness.get_by_label("Pause").accesskit_node().is_disabled(),
+        harness
+            .get_by_label("Pause the picture")
+            .accesskit_node()
+            .is_disabled(),
         "there is nothing to pause"
     );
     harness.state_mut().document_mut().project.soot.amount = 1.5;
     harness.run_steps(1);
     harness.key_press(Key::P);
     harness.run_steps(2);
-    harness.get_by_label("Go on").click_accesskit();
+    harness
+        .get_by_label("Go on with the picture")
+        .click_accesskit();
     harness.run_steps(2);
     settle(&mut harness);
     // What is changed is seen, whatever paused.

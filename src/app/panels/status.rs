@@ -2,7 +2,10 @@
 
 use std::time::Duration;
 
-use egui::{Align, Button, Frame, Label, Layout, Margin, Panel, ProgressBar, RichText, Ui, vec2};
+use egui::{
+    Align, Button, Frame, Label, Layout, Margin, Panel, ProgressBar, RichText, Role, Ui,
+    WidgetInfo, vec2,
+};
 
 use super::Command;
 use super::quality::short_de;
@@ -17,6 +20,10 @@ use crate::render::Pass;
 /// Height of the line in points, and of the space above and below its words.
 const HEIGHT: f32 = 28.0;
 const MARGIN: i8 = 3;
+/// Least widths of the window at which there is room to pause the picture, and for the histogram, points: narrower ones have
+/// their keys.
+const WITH_PAUSE: f32 = 800.0;
+const WITH_ALL: f32 = 960.0;
 
 /// Draws the line.
 pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
@@ -30,12 +37,15 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>
         .show(ui, |ui| {
             // The line is as high whatever it says: the picture above must keep its size.
             ui.set_min_height(HEIGHT - 2.0 * f32::from(MARGIN));
+            let width = ui.available_width();
             ui.horizontal_centered(|ui| {
                 super::export::line(ui, app, commands);
                 if let Some(load) = app.loader.loading() {
                     loading(ui, &load, commands);
                 } else {
-                    pausing(ui, app, commands);
+                    if width >= WITH_PAUSE {
+                        pausing(ui, app, commands);
+                    }
                     rendering(ui, app);
                 }
                 let flaws = app.flaws();
@@ -58,9 +68,10 @@ pub(in crate::app) fn status(ui: &mut Ui, app: &App, commands: &mut Vec<Command>
                     {
                         commands.push(Command::ToggleSpectrum);
                     }
-                    let levels = ui.selectable_label(app.plots.shows_levels(), "Histogram");
-                    if levels
-                        .on_hover_text(
+                    if width >= WITH_ALL
+                        && ui
+                            .selectable_label(app.plots.shows_levels(), "Histogram")
+                            .on_hover_text(
                             "Show or hide how often the picture shows each level, and what is clipped (H).",
                         )
                         .clicked()
@@ -96,19 +107,23 @@ fn loading(ui: &mut Ui, loading: &Loading<'_>, commands: &mut Vec<Command>) {
 
 /// A way to let the picture pause while it is rendered.
 fn pausing(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let (words, tip) = if app.engine.pauses() {
+    let (words, name, tip) = if app.engine.pauses() {
         (
             "Go on",
+            "Go on with the picture",
             "The picture pauses. It goes on with the next change as well (P).",
         )
     } else {
         (
             "Pause",
+            "Pause the picture",
             "Leaves the machine to something else; the picture stays as far as it is (P).",
         )
     };
     let button = Button::new(words).min_size(vec2(52.0, 0.0));
-    let button = ui.add_enabled(app.is_working(), button);
+    let is_working = app.is_working();
+    let button = ui.add_enabled(is_working, button);
+    button.widget_info(|| WidgetInfo::labeled(Role::Button, is_working, name));
     if button.on_hover_text(tip).clicked() {
         commands.push(Command::PausePicture);
     }
