@@ -76,14 +76,7 @@ fn a_png_carries_the_scene_that_makes_it_again() {
 fn an_exr_holds_the_light_and_what_it_passed_through() {
     let place = Place::new();
     place.expect(0, &format!("{SMALL} -o a.exr"));
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .from_file(place.path("a.exr"))
-        .unwrap();
+    let image = read_exr(&place.path("a.exr"));
     let channels = &image.layer_data.channel_data.list;
     let names: Vec<String> = channels
         .iter()
@@ -141,16 +134,23 @@ fn an_exr_holds_the_light_and_what_it_passed_through() {
     );
 }
 
-/// A channel of an EXR, row by row.
-fn channel(path: &Path, name: &str) -> Vec<f32> {
-    let image = exr::prelude::read()
+/// An EXR as another program reads it.
+fn read_exr(
+    path: &Path,
+) -> exr::image::Image<exr::image::Layer<exr::image::AnyChannels<FlatSamples>>> {
+    exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()
         .first_valid_layer()
         .all_attributes()
         .from_file(path)
-        .unwrap();
+        .unwrap()
+}
+
+/// A channel of an EXR, row by row.
+fn channel(path: &Path, name: &str) -> Vec<f32> {
+    let image = read_exr(path);
     let channels = &image.layer_data.channel_data.list;
     let found = channels.iter().find(|channel| channel.name.eq(name));
     let FlatSamples::F32(values) = &found.unwrap().sample_data else {

@@ -31,10 +31,10 @@ impl Levels {
         };
         let baked = BakedView::new(&view);
         let pixels = film.pixels();
-        // Without a common divisor with the width every column is hit.
+        // Without a common divisor with the width every column is hit; one of so many in a row has none.
         let width = film.size()[0] as usize;
         let least = (pixels.len() / most.max(1)).max(1);
-        let stride = (least..).find(|&stride| divisor(stride, width) == 1);
+        let stride = (least..=least + width).find(|&stride| divisor(stride, width) == 1);
         let stride = stride.unwrap_or(1);
         let mut counts = [[0_u32; LEVELS]; 3];
         let (mut all, mut black) = (0_u32, 0_u32);
