@@ -4,6 +4,7 @@
 //! An [`Order`] is plain data, taken when Export is pressed: what is edited or opened afterwards does not change it.
 
 mod order;
+mod outcome;
 mod range;
 mod still;
 
@@ -17,48 +18,18 @@ use std::time::{Duration, Instant};
 
 use super::words::with_causes;
 use crate::export::ExportError;
+use crate::render::Cancel;
 use crate::render::Gate;
 use crate::render::preparation::Preparation;
-use crate::render::{Cancel, Flaws};
 
 pub(super) use order::{Exactness, Order, Wish};
+pub(super) use outcome::Outcome;
 use still::{NotExported, export, pool};
 
-pub(super) use range::{Counts, Playing, RangeOrder, numbered};
+pub(super) use range::{Counts, Playing, RangeOrder};
 
 /// Between two calls that wake the window, milliseconds.
 const WAKE_MS: u64 = 50;
-
-/// What became of an export.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Outcome {
-    /// The file is there.
-    Done {
-        /// The file.
-        path: PathBuf,
-        /// Width and height in pixels.
-        size: [u32; 2],
-        /// Wall-clock time of everything.
-        seconds: f64,
-        /// Everything assumed or not faithful.
-        flaws: Flaws,
-    },
-    /// All frames of a range were tried.
-    Range {
-        /// What became of them.
-        counts: Counts,
-        /// Wall-clock time of everything.
-        seconds: f64,
-        /// Everything assumed or not faithful in any of them.
-        flaws: Flaws,
-    },
-    /// Nothing was written, or no more of a range, and why.
-    Failed(String),
-    /// Nothing was written, as was wished.
-    Cancelled,
-    /// A range was ended, as was wished; frames that are done stay.
-    Stopped,
-}
 
 /// How far an export is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,7 +101,7 @@ impl Exporter {
         });
     }
 
-    /// Begins to export all frames of a range, unless an export runs.
+    /// Begins to export all pictures of a range, unless an export runs.
     pub(super) fn begin_range(&mut self, order: RangeOrder) {
         self.start(order.output.clone(), true, move |shared, begun, wake| {
             let outcome = shared.outcome(begun, wake, |cancel, progress| {
@@ -210,14 +181,14 @@ impl Exporter {
         }
     }
 
-    /// Takes in the outcome, once there is one.
-    pub(super) fn poll(&mut self) {
+    /// Takes in the outcome, once there is one: true then.
+    pub(super) fn poll(&mut self) -> bool {
         let Some(running) = &self.running else {
-            return;
+            return false;
         };
         let outcome = match running.outcome.try_recv() {
             Ok(outcome) => outcome,
-            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Empty) => return false,
             Err(TryRecvError::Disconnected) => {
                 Outcome::Failed("the export ended without a word; nothing was written".to_owned())
             }
@@ -227,6 +198,7 @@ impl Exporter {
             // It has said its last word.
             let _ = running.thread.join();
         }
+        true
     }
 
     /// The file that is being made, and how far it is.

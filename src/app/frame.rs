@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::canvas::{Beside, Over};
 use super::closing::{Close, Closing};
 use super::snapshots::Way;
-use super::{App, hands, panels, plots, timeline};
+use super::{App, hands, panels, plots, theme, timeline};
 
 /// While a file is read, how far it is is drawn this often.
 const LOADING_FRAME: Duration = Duration::from_millis(100);
@@ -16,6 +16,9 @@ const WORKING_FRAME: Duration = Duration::from_millis(250);
 impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.recent.save(storage);
+        theme::save(&self.ctx, storage);
+        self.picture_what_is_open(true);
+        self.thumbnails.save(&self.recent);
     }
 
     fn on_exit(&mut self) {
@@ -33,7 +36,9 @@ impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         self.receive();
         self.read_what_is_lacking();
-        self.exporter.poll();
+        if self.exporter.poll() {
+            self.tell_ended(ctx);
+        }
         self.receive_saved(ctx);
         if self.lost.words().is_some() && self.closing != Closing::Now {
             self.close(Close::AfterExport, ctx);
@@ -45,6 +50,7 @@ impl eframe::App for App {
             ctx.request_repaint_after(wait);
         }
         self.look();
+        self.picture_what_is_open(false);
         self.retitle(ctx);
         // A hidden window draws nothing, yet what was loaded begins to render.
         self.follow();
@@ -82,6 +88,7 @@ impl eframe::App for App {
                 region: &self.region,
                 snapshots: &self.snapshots,
                 recent: &self.recent,
+                thumbnails: &self.thumbnails,
             },
             &flaws,
             &mut commands,
@@ -107,7 +114,11 @@ impl eframe::App for App {
                 share,
                 has_line: self.snapshots.way() == Way::Wipe,
             });
-        let over = Over { map, beside };
+        let over = Over {
+            map,
+            marks_clipped: self.plots.marks_clipped(&view),
+            beside,
+        };
         let keys = !self.panels.export.is_open();
         let shown = self
             .canvas

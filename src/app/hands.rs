@@ -6,17 +6,19 @@ use std::time::Duration;
 
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, ViewportCommand};
 
-use super::App;
 use super::closing::Close;
+use super::exporter::Wish;
 use super::files::{Request, paths_of};
 use super::maps::Map;
-use super::panels::Command;
+use super::panels::{Command, Many};
 use super::scene_file::is_settings;
 use super::snapshots::{MOST, Way};
 use super::timeline::Step;
+use super::{App, theme};
+use crate::render::develop::Metering;
 
 /// Shortcuts, longer ones first: a shorter one would also match them.
-const SHORTCUTS: [(Modifiers, Key, Command); 21] = [
+const SHORTCUTS: [(Modifiers, Key, Command); 23] = [
     (
         Modifiers::COMMAND.plus(Modifiers::SHIFT),
         Key::Z,
@@ -43,6 +45,8 @@ const SHORTCUTS: [(Modifiers, Key, Command); 21] = [
     (Modifiers::NONE, Key::N, Command::TogglePanel),
     (Modifiers::NONE, Key::S, Command::ToggleSpectrum),
     (Modifiers::NONE, Key::H, Command::ToggleLevels),
+    (Modifiers::NONE, Key::J, Command::ToggleClipped),
+    (Modifiers::NONE, Key::F2, Command::ToggleTheme),
     (Modifiers::NONE, Key::V, Command::ToggleVolume),
     (Modifiers::NONE, Key::C, Command::ToggleAccuracy),
     (Modifiers::NONE, Key::K, Command::ToggleMap(Map::Cost)),
@@ -83,6 +87,7 @@ impl App {
                 Command::ToggleSpectrum => self.plots.toggle(),
                 Command::ToggleVolume => self.plots.toggle_volume(),
                 Command::ToggleLevels => self.plots.toggle_levels(),
+                Command::ToggleClipped => self.plots.toggle_marks(),
                 Command::ToggleAccuracy => self.plots.toggle_accuracy(),
                 Command::Adopt(numbers) => self
                     .document
@@ -111,27 +116,12 @@ impl App {
                 Command::ForgetSession => self.autosave.forget(),
                 Command::OpenExport => self.panels.export.open(&self.document, &mut self.exporter),
                 Command::Export(wish) => {
-                    // What was measured on a coarse picture is about to be measured again.
-                    let metering = self.document.metering;
-                    let metering = metering.filter(|_| !self.meter.is_coarse());
-                    if let Some(order) =
-                        wish.order(&self.document, metering, self.effects_on_show())
-                    {
+                    let (metering, effects) = (self.lasting_metering(), self.effects_on_show());
+                    if let Some(order) = wish.order(&self.document, metering, effects) {
                         self.exporter.begin(order);
                     }
                 }
-                Command::ExportRange(wish) => {
-                    let metering = self.document.metering;
-                    let metering = metering.filter(|_| !self.meter.is_coarse());
-                    let effects = self.effects_on_show();
-                    let order = self
-                        .timeline
-                        .playing()
-                        .and_then(|playing| wish.range(&self.document, playing, metering, effects));
-                    if let Some(order) = order {
-                        self.exporter.begin_range(order);
-                    }
-                }
+                Command::ExportMany(wish, many) => self.export_many(wish, many),
                 Command::PauseExport(pauses) => self.exporter.pause(pauses),
                 Command::CancelExport => self.exporter.cancel(),
                 Command::Close(close) => self.close(close, ctx),
@@ -148,8 +138,28 @@ impl App {
                 Command::CopySettings => ctx.copy_text(self.document.project.copied()),
                 Command::PasteSettings => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
                 Command::ToggleHelp => self.panels.shows_help = !self.panels.shows_help,
+                Command::ToggleTheme => theme::toggle(ctx),
                 Command::ForgetExport => self.exporter.dismiss(),
             }
+        }
+    }
+
+    /// What was measured, unless that was on a coarse picture and is about to be measured again.
+    fn lasting_metering(&self) -> Option<Metering> {
+        let metering = self.document.metering;
+        metering.filter(|_| !self.meter.is_coarse())
+    }
+
+    fn export_many(&mut self, wish: Wish, many: Many) {
+        let (metering, effects) = (self.lasting_metering(), self.effects_on_show());
+        let document = &self.document;
+        let order = match (many, self.timeline.playing()) {
+            (Many::Frames, None) => None,
+            (Many::Frames, Some(playing)) => wish.range(document, playing, metering, effects),
+            (Many::Turntable(views), _) => wish.turntable(document, views, metering, effects),
+        };
+        if let Some(order) = order {
+            self.exporter.begin_range(order);
         }
     }
 

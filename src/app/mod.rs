@@ -18,6 +18,7 @@ mod history;
 mod lost;
 mod maps;
 mod meter;
+mod notify;
 mod opening;
 mod panels;
 mod pictures;
@@ -28,6 +29,7 @@ mod scene_file;
 mod snapshots;
 mod start;
 mod theme;
+mod thumbnails;
 mod timeline;
 mod words;
 
@@ -55,6 +57,7 @@ use self::recent::Recent;
 use self::region::RegionFrame;
 use self::scene_file::SceneFile;
 use self::snapshots::Snapshots;
+use self::thumbnails::Thumbnails;
 use self::timeline::Timeline;
 use crate::colour::display::View;
 use crate::engine::{Engine, Generation, Picture};
@@ -69,6 +72,8 @@ const FRAME: Duration = Duration::from_millis(30);
 const APP_ID: &str = "sootlight";
 /// Where in that folder a person's own presets lie.
 const PRESETS: &str = "presets";
+/// Where in that folder the pictures lie of what was opened before.
+const THUMBNAILS: &str = "thumbnails";
 /// Where in that folder it is kept what is open.
 const SESSIONS: &str = "sessions";
 
@@ -94,6 +99,9 @@ pub struct App {
     panels: Panels,
     plots: Plots,
     recent: Recent,
+    thumbnails: Thumbnails,
+    /// Which picture what is open was last pictured by.
+    pictured: Option<Generation>,
     scene_file: SceneFile,
     autosave: Autosave,
     lost: Lost,
@@ -104,6 +112,7 @@ pub struct App {
     /// Whether somebody wants to close the window while it exports, or with settings that are in no file.
     closing: Closing,
     title: String,
+    ctx: egui::Context,
 }
 
 impl App {
@@ -114,7 +123,7 @@ impl App {
     /// The system gives no threads.
     pub fn new(creation: &eframe::CreationContext<'_>, project: Project) -> Result<Self, AppError> {
         let ctx = &creation.egui_ctx;
-        theme::put_on(ctx);
+        theme::put_on(ctx, creation.storage);
         let tile_wake = ctx.clone();
         let tile_wake = Box::new(move || tile_wake.request_repaint_after(FRAME));
         let engine =
@@ -138,6 +147,9 @@ impl App {
         let folder = creation.storage.and_then(|_| eframe::storage_dir(APP_ID));
         let mut panels = Panels::default();
         panels.presets.folder = folder.as_ref().map(|folder| folder.join(PRESETS));
+        let recent = Recent::load(creation.storage);
+        let pictures = folder.as_ref().map(|folder| folder.join(THUMBNAILS));
+        let thumbnails = Thumbnails::load(ctx, pictures, &recent);
         let autosave = folder.map(|folder| Autosave::in_folder(&folder.join(SESSIONS), &project));
         let lost = Lost::default();
         let scene_file = SceneFile::new(&project);
@@ -164,12 +176,15 @@ impl App {
             timeline,
             panels,
             plots: Plots::default(),
-            recent: Recent::load(creation.storage),
+            recent,
+            thumbnails,
+            pictured: None,
             scene_file,
             expose_anew: false,
             notice: None,
             closing: Closing::default(),
             title: String::new(),
+            ctx: ctx.clone(),
         })
     }
 
@@ -284,8 +299,14 @@ impl App {
         let scene = self.scene_file.path().and_then(Path::file_name);
         let scene = scene.map(|name| format!("{} — ", name.to_string_lossy()));
         let unsaved = if self.is_unsaved() { " *" } else { "" };
+        // A minimised window shows nothing else of an export.
+        let exported = self.exporter.running().map(|(_, progress)| {
+            let percent = (100.0 * progress.share).floor();
+            format!("{percent:.0} % exported — ")
+        });
         let title = format!(
-            "Sootlight — {}{}{unsaved}",
+            "{}Sootlight — {}{}{unsaved}",
+            exported.unwrap_or_default(),
             scene.unwrap_or_default(),
             self.document.title()
         );

@@ -1,5 +1,6 @@
 //! Pictures: jobs go to the engine, and what it renders comes back. The only place that submits.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -71,6 +72,24 @@ impl App {
         let is_newest = self.document.last_job() == Some(&submitted.job) && self.shows_newest();
         let mut whole = progress.passes.iter().take(progress.done);
         is_newest && progress.failure.is_none() && whole.any(|pass| pass.stride == 1)
+    }
+
+    /// Keeps how what is open looks, for the list of what was opened before: when its picture is new, or `again`.
+    pub(super) fn picture_what_is_open(&mut self, again: bool) {
+        let generation = self.picture.generation();
+        let is_new = again || self.pictured != generation;
+        if !is_new || !self.shows_a_fine_picture() || self.region.is_set() {
+            return;
+        }
+        self.pictured = generation;
+        let scene = self.scene_file.path().map(Path::to_owned);
+        let volume = || Some(self.document.volume()?.sources.clone());
+        let files = scene.map(|path| vec![path]).or_else(volume);
+        let entry = files.and_then(|files| self.recent.entry(&files).map(<[_]>::to_vec));
+        if let Some(entry) = entry {
+            let view = self.view();
+            self.thumbnails.keep(&entry, self.picture.film(), &view);
+        }
     }
 
     /// Which effects are on show, each on or off, if that is known of the document as it stands.

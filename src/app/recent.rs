@@ -31,11 +31,16 @@ impl Recent {
         if files.is_empty() {
             return;
         }
-        let whole = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
-        let files: Vec<PathBuf> = files.iter().map(whole).collect();
+        let files = whole(files);
         self.0.retain(|known| *known != files);
         self.0.insert(0, files);
         self.0.truncate(MOST);
+    }
+
+    /// The entry of these files, if they are remembered.
+    pub(super) fn entry(&self, files: &[PathBuf]) -> Option<&[PathBuf]> {
+        let files = whole(files);
+        self.iter().find(|known| *known == files)
     }
 
     /// Newest first.
@@ -44,12 +49,19 @@ impl Recent {
     }
 }
 
+/// The whole paths of files.
+fn whole(files: &[PathBuf]) -> Vec<PathBuf> {
+    let whole = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
+    files.iter().map(whole).collect()
+}
+
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
+    /// What a window remembers, without a disk.
     #[derive(Default)]
-    struct Memory(std::collections::HashMap<String, String>);
+    pub(in crate::app) struct Memory(std::collections::HashMap<String, String>);
 
     impl eframe::Storage for Memory {
         fn get_string(&self, key: &str) -> Option<String> {

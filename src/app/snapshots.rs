@@ -1,9 +1,10 @@
 //! Snapshots: pictures as they were, with all that was set, to compare the picture on show with and to go back to.
 
-use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
+use egui::{Context, TextureHandle, TextureOptions};
 
 use super::document::Step;
-use crate::colour::display::{BakedView, View};
+use super::thumbnails::thumbnail;
+use crate::colour::display::View;
 use crate::engine::Picture;
 use crate::render::Film;
 
@@ -11,8 +12,6 @@ use crate::render::Film;
 pub(super) const MOST: usize = 12;
 /// Volumes that are kept in memory for their sake, the newest: they may be large, and can be read again.
 const MOST_VOLUMES: usize = 2;
-/// Longer side of a thumbnail, pixels.
-const THUMBNAIL: u32 = 160;
 
 /// Every snapshot, and how the picture is compared with one of them.
 pub(super) struct Snapshots {
@@ -181,32 +180,6 @@ impl Snapshots {
         };
         Some((self.chosen()?, share))
     }
-}
-
-/// A small picture of a film, each pixel the mean light of its block.
-fn thumbnail(film: &Film, view: &View) -> ColorImage {
-    let size = film.size();
-    let every = size[0].max(size[1]).div_ceil(THUMBNAIL).max(1);
-    let small = size.map(|side| side.div_ceil(every));
-    let view = BakedView::new(view);
-    let places = (0..small[1]).flat_map(|y| (0..small[0]).map(move |x| [x * every, y * every]));
-    let pixels = places.map(|[left, top]| {
-        let (mut sum, mut count) = ([0.0_f32; 3], 0.0);
-        for y in top..(top + every).min(size[1]) {
-            for x in left..(left + every).min(size[0]) {
-                let light = film.pixel(x, y).map_or([0.0; 3], |pixel| pixel.xyz);
-                // What is no number is black, as in the picture.
-                if light.iter().all(|value| value.is_finite()) {
-                    sum = std::array::from_fn(|c| sum[c] + light[c]);
-                }
-                count += 1.0;
-            }
-        }
-        let [r, g, b] = view.apply(sum.map(|value| value / f32::max(count, 1.0)));
-        let byte = |value: f32| (255.0 * value).round() as u8;
-        Color32::from_rgb(byte(r), byte(g), byte(b))
-    });
-    ColorImage::new(small.map(|side| side as usize), pixels.collect())
 }
 
 #[cfg(test)]

@@ -1,4 +1,6 @@
-//! What is said of an error.
+//! What is said to a person, wherever it is said.
+
+use std::path::Path;
 
 /// An error in one line, with what caused it.
 pub(super) fn with_causes(error: &dyn std::error::Error) -> String {
@@ -13,4 +15,10 @@ pub(super) fn with_causes(error: &dyn std::error::Error) -> String {
         cause = error.source();
     }
     words
+}
+
+/// A path without its folders, for a person.
+pub(super) fn name_of(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
 }

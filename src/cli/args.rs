@@ -106,6 +106,15 @@ pub(super) struct RenderArgs {
     /// OUT before its ending, or where it has ####. Pictures that are there, made from the same files and settings, are kept.
     #[arg(long, value_name = "A-B", conflicts_with = "time_limit")]
     pub(super) frames: Option<Frames>,
+    /// So many views evenly round the fire instead of one, the first from where the camera is. Exposure and all else is held
+    /// as with --frames, and pictures are numbered and kept as there.
+    #[arg(
+        long,
+        value_name = "N",
+        conflicts_with_all = ["time_limit", "frames"],
+        value_parser = clap::value_parser!(u32).range(2..=MOST_VIEWS)
+    )]
+    pub(super) turntable: Option<u32>,
     /// Threads to render with; all cores if not given. The picture is the same.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
@@ -191,6 +200,9 @@ fn seconds(text: &str) -> Result<f64, String> {
         )),
     }
 }
+
+/// What `--turntable` may be: a tenth of a degree from one to the next.
+const MOST_VIEWS: i64 = 3600;
 
 /// What `--time-limit` may be, seconds: up to a year.
 const MOST_HURRIED_S: f64 = 0.001;

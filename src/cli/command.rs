@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Args, ProjectArgs, RenderArgs, SpectrumArgs, StudyArgs, Sub};
 use super::error::CliError;
+use super::frames::Pictures;
 use crate::export::png::Bits;
 use crate::export::{Format, is_same_file};
 use crate::project::set::did_you_mean;
 use crate::project::{Preset, Project};
 use crate::scene::curves::Bands;
-use crate::sequence::Frames;
 
 /// A thing to do.
 #[derive(Debug)]
@@ -44,8 +44,7 @@ pub(super) struct Render {
     /// Seconds of planning and rendering after which it stops.
     pub(super) time_limit: Option<f64>,
     pub(super) stats: Option<PathBuf>,
-    /// Which frames of the sequence that the project's files are of; `None` for those files alone.
-    pub(super) frames: Option<Frames>,
+    pub(super) pictures: Pictures,
 }
 
 /// A scene to measure.
@@ -143,7 +142,11 @@ impl Render {
             threads,
             time_limit: args.time_limit,
             stats: args.stats,
-            frames: args.frames,
+            pictures: match (args.frames, args.turntable) {
+                (Some(frames), _) => Pictures::Frames(frames),
+                (None, Some(views)) => Pictures::Turntable(views),
+                (None, None) => Pictures::One,
+            },
         })
     }
 }

@@ -1,6 +1,6 @@
-//! `sootlight render --frames A-B`: a range of a sequence, frame by frame.
+//! `sootlight render --frames A-B` and `--turntable N`: a range of a sequence, or one fire from all around, picture by picture.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, VecDeque};
 use std::path::PathBuf;
 
 use indicatif::ProgressBar;
@@ -13,46 +13,109 @@ use super::output;
 use super::pool::pool;
 use super::stats::{self, Stats};
 use crate::export::{self, is_same_file};
-use crate::range::{self, Ended, Locked, Made, Order, Outcome, RangeError};
+use crate::range::{self, Ended, Locked, Made, Order, Outcome, RangeError, Shots};
 use crate::render::{Cancel, Gate};
 use crate::sequence::{Frames, Sequence};
+
+/// Which pictures a command makes.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Pictures {
+    /// One, of the project's files.
+    One,
+    /// These frames of the sequence that the project's files are of.
+    Frames(Frames),
+    /// So many views once round the fire.
+    Turntable(u32),
+}
+
+/// The pictures that were asked for.
+struct Asked {
+    shots: Shots,
+    /// What one of them is called.
+    noun: &'static str,
+    /// All of them in words, for statistics.
+    words: String,
+    /// What is to be told before the first number after each of these.
+    gaps: VecDeque<(u64, String)>,
+}
+
+impl Asked {
+    fn frames(frames: Frames, sequence: &Sequence) -> Result<Self, CliError> {
+        let numbers = frames.of(sequence);
+        if numbers.is_empty() {
+            let [from, to] = sequence.ends().map(|end| sequence.padded(end));
+            return Err(CliError::Said(format!(
+                "no frame of {frames} is there: {} has frames from {from} to {to}",
+                sequence.pattern()
+            )));
+        }
+        let gap = |[first, last]: [u64; 2]| {
+            let [from, to] = [first, last].map(|end| sequence.padded(end));
+            let words = if first == last {
+                format!("frame {from}: skipped, there is no such file")
+            } else {
+                format!("frames {from} to {to}: skipped, there are no such files")
+            };
+            (first, words)
+        };
+        Ok(Self {
+            shots: Shots::frames(sequence, &numbers),
+            noun: "frame",
+            words: frames.to_string(),
+            gaps: frames.gaps(sequence).into_iter().map(gap).collect(),
+        })
+    }
+
+    fn turntable(views: u32, paths: &[PathBuf]) -> Self {
+        Self {
+            shots: Shots::turntable(paths, views),
+            noun: "view",
+            words: format!("turntable of {views} views"),
+            gaps: VecDeque::new(),
+        }
+    }
+}
 
 impl Render {
     /// Renders these frames. What is bad is told, and the rest goes on.
     pub(super) fn run_frames(&self, frames: Frames) -> Result<(), CliError> {
         let sequence = Sequence::of_all(&self.project.volume.path)
             .map_err(|error| CliError::failed("there is no sequence to render", error))?;
-        let numbers = frames.of(&sequence);
-        let Some(&first) = numbers.first() else {
-            let [from, to] = sequence.ends().map(|end| sequence.padded(end));
-            return Err(CliError::Said(format!(
-                "no frame of {frames} is there: {} has frames from {from} to {to}",
-                sequence.pattern()
-            )));
-        };
-        self.check_targets(&sequence, &numbers)?;
+        let asked = Asked::frames(frames, &sequence)?;
         for words in sequence.notes() {
             output::say(&format!("note: {words}"));
         }
+        self.run_range(asked)
+    }
+
+    /// Renders so many views from all around.
+    pub(super) fn run_turntable(&self, views: u32) -> Result<(), CliError> {
+        self.run_range(Asked::turntable(views, &self.project.volume.path))
+    }
+
+    fn run_range(&self, asked: Asked) -> Result<(), CliError> {
+        self.check_targets(&asked)?;
         let pool = pool(self.threads)?;
         let mut project = self.project.clone();
-        project.volume.path = sequence.paths(first);
+        if let Some(first) = asked.shots.iter().next() {
+            project.volume.path.clone_from(&first.paths);
+        }
 
         let never = Cancel::never();
-        let bar = output::frames_bar(numbers.len());
+        let bar = output::frames_bar(asked.shots.len());
         bar.set_message("measuring what is held over the range");
         let locked = pool
-            .install(|| range::lock(&project, &sequence, &numbers, &never, &|_| {}))
+            .install(|| range::lock(&project, &asked.shots, &never, &|_| {}))
             .map_err(range_failed)?;
         let order = Order {
             project: locked.project.clone(),
-            sequence,
-            numbers,
+            shots: asked.shots.clone(),
             output: self.output.clone(),
             format: self.format,
             assumed: locked.assumed.clone(),
         };
-        let mut told = Told::new(self, &order, frames, &bar);
+        let words = asked.words.clone();
+        let mut told = Told::new(self, asked, &bar);
         let progress = |share: f64| output::advance_frame(&bar, share);
         let written = pool.install(|| {
             range::write(&order, &Gate::default(), &never, &progress, &mut |ended| {
@@ -62,7 +125,7 @@ impl Render {
         bar.finish_and_clear();
         let told = told.end();
         if let Some(path) = &self.stats {
-            let text = format!("{:#}\n", told.to_json(&locked, frames));
+            let text = format!("{:#}\n", told.to_json(&locked, &words));
             export::write(path, text.as_bytes()).map_err(|error| {
                 CliError::failed(
                     "the pictures were written, their statistics were not",
@@ -76,25 +139,22 @@ impl Render {
 
     /// Pictures that cannot be written are not worth the measuring; statistics may take the place of neither a picture nor what
     /// one is made from.
-    fn check_targets(&self, sequence: &Sequence, numbers: &[u64]) -> Result<(), CliError> {
+    fn check_targets(&self, asked: &Asked) -> Result<(), CliError> {
+        let Asked { shots, noun, .. } = asked;
         let refused = |error| CliError::failed("nothing was rendered", error);
-        let sources: Vec<PathBuf> = numbers
-            .iter()
-            .flat_map(|&number| sequence.paths(number))
-            .collect();
-        if let Some(&first) = numbers.first() {
-            let first = range::target(&self.output, first, sequence.padding());
+        let sources: Vec<PathBuf> = shots.iter().flat_map(|shot| shot.paths.clone()).collect();
+        let mut targets = shots.targets(&self.output);
+        if let Some(first) = targets.next() {
             export::check_target(&first, &sources).map_err(refused)?;
         }
         let Some(stats) = &self.stats else {
             return Ok(());
         };
         export::check_target(stats, &sources).map_err(refused)?;
-        let target = |&number: &u64| range::target(&self.output, number, sequence.padding());
-        let mut targets = numbers.iter().map(target);
+        let mut targets = shots.targets(&self.output);
         match targets.find(|target| is_same_file(stats, target)) {
             Some(target) => Err(CliError::Usage(format!(
-                "--stats {}: the picture of a frame is the same file, {}; choose a name of its own",
+                "--stats {}: the picture of a {noun} is the same file, {}; choose a name of its own",
                 stats.display(),
                 target.display()
             ))),
@@ -110,10 +170,9 @@ fn range_failed(error: RangeError) -> CliError {
 /// What is told of the frames, a line each, and for statistics.
 struct Told<'a> {
     render: &'a Render,
-    order: &'a Order,
+    /// Whose gaps are those that are still to be told.
+    asked: Asked,
     bar: &'a ProgressBar,
-    /// First and last number of each gap that is still to be told.
-    gaps: std::iter::Peekable<std::vec::IntoIter<[u64; 2]>>,
     /// A flaw that all frames share is told once.
     flaws: BTreeSet<String>,
     frames: Vec<Value>,
@@ -128,12 +187,11 @@ struct Counts {
 }
 
 impl<'a> Told<'a> {
-    fn new(render: &'a Render, order: &'a Order, frames: Frames, bar: &'a ProgressBar) -> Self {
+    fn new(render: &'a Render, asked: Asked, bar: &'a ProgressBar) -> Self {
         Self {
             render,
-            order,
+            asked,
             bar,
-            gaps: frames.gaps(&order.sequence).into_iter().peekable(),
             flaws: BTreeSet::new(),
             frames: Vec::new(),
             counts: Counts::default(),
@@ -146,18 +204,9 @@ impl<'a> Told<'a> {
 
     /// Tells of the gaps before a frame.
     fn tell_gaps(&mut self, before: Option<u64>) {
-        while let Some([first, last]) = self
-            .gaps
-            .next_if(|[first, _]| before.is_none_or(|number| *first < number))
-        {
-            let [from, to] = [first, last].map(|end| self.order.sequence.padded(end));
-            if first == last {
-                self.say(&format!("frame {from}: skipped, there is no such file"));
-            } else {
-                self.say(&format!(
-                    "frames {from} to {to}: skipped, there are no such files"
-                ));
-            }
+        let is_before = |&mut (first, _): &mut (u64, String)| before.is_none_or(|it| first < it);
+        while let Some((_, words)) = self.asked.gaps.pop_front_if(is_before) {
+            self.say(&words);
         }
     }
 
@@ -181,7 +230,7 @@ impl<'a> Told<'a> {
                 ));
                 for flaw in made.written.flaws.iter() {
                     // Frames differ in the number in their files' names.
-                    let number = self.order.sequence.padded(ended.number);
+                    let number = self.asked.shots.padded(ended.number);
                     if self.flaws.insert(flaw.replace(&number, "#")) {
                         self.say(&format!("  flaw: {flaw}"));
                     }
@@ -198,13 +247,13 @@ impl<'a> Told<'a> {
                 self.counts.failed += 1;
                 told["state"] = json!("failed");
                 told["reason"] = json!(error.to_string());
-                let number = self.order.sequence.padded(ended.number);
+                let (noun, number) = (self.asked.noun, self.asked.shots.padded(ended.number));
                 self.bar
-                    .suspend(|| output::warn(&format!("frame {number}: skipped, {error}")));
+                    .suspend(|| output::warn(&format!("{noun} {number}: skipped, {error}")));
             }
         }
         self.frames.push(told);
-        output::next_frame(self.bar, self.frames.len());
+        output::next_frame(self.bar, self.frames.len(), self.asked.noun);
     }
 
     fn stats(&self, made: &Made) -> Value {
@@ -239,6 +288,7 @@ impl<'a> Told<'a> {
     fn end(mut self) -> Summary {
         self.tell_gaps(None);
         Summary {
+            noun: self.asked.noun,
             counts: self.counts,
             frames: self.frames,
         }
@@ -247,14 +297,15 @@ impl<'a> Told<'a> {
 
 /// A whole range.
 struct Summary {
+    noun: &'static str,
     counts: Counts,
     frames: Vec<Value>,
 }
 
 impl Summary {
-    fn to_json(&self, locked: &Locked, frames: Frames) -> Value {
+    fn to_json(&self, locked: &Locked, range: &str) -> Value {
         json!({
-            "range": frames.to_string(),
+            "range": range,
             "measured_on_frame": locked.measured_on,
             "frames": self.frames,
         })
@@ -268,14 +319,14 @@ impl Summary {
             failed,
         } = self.counts;
         let all = rendered + kept + failed;
+        let (noun, plural) = (self.noun, if all == 1 { "" } else { "s" });
         output::say(&format!(
-            "{all} {}: {rendered} rendered, {kept} kept, {failed} failed",
-            if all == 1 { "frame" } else { "frames" }
+            "{all} {noun}{plural}: {rendered} rendered, {kept} kept, {failed} failed"
         ));
         match failed {
             0 => Ok(()),
             _ => Err(CliError::Said(format!(
-                "{failed} of {all} frames could not be rendered: mend their files and call again, what is done is kept"
+                "{failed} of {all} {noun}s could not be rendered: mend their files and call again, what is done is kept"
             ))),
         }
     }

@@ -64,7 +64,7 @@ pub(super) fn progress_bar(preparation: &Preparation) -> ProgressBar {
     bar.with_style(style.with_key("rest", rest))
 }
 
-/// A bar for so many frames, with a message, on a terminal; nothing in a pipe.
+/// A bar for so many pictures, with a message, on a terminal; nothing in a pipe.
 pub(super) fn frames_bar(frames: usize) -> ProgressBar {
     let bar = progress_bar(&Preparation::default());
     bar.set_length(frames as u64 * STEPS as u64);
@@ -82,10 +82,10 @@ pub(super) fn advance_frame(bar: &ProgressBar, share: f64) {
 }
 
 /// Moves a bar of frames to where so many are done with.
-pub(super) fn next_frame(bar: &ProgressBar, done: usize) {
+pub(super) fn next_frame(bar: &ProgressBar, done: usize, noun: &str) {
     let frames = bar.length().unwrap_or(0) / STEPS as u64;
     bar.set_position(done as u64 * STEPS as u64);
-    bar.set_message(format!("{done} of {frames} frames"));
+    bar.set_message(format!("{done} of {frames} {noun}s"));
 }
 
 /// Moves a bar to a share between 0 and 1, never back: workers report in any order.

@@ -7,6 +7,7 @@ use indicatif::ProgressBar;
 use super::accuracy::Accuracy;
 use super::command::Render;
 use super::error::CliError;
+use super::frames::Pictures;
 use super::pool::pool;
 use super::stats::{Seconds, Stats};
 use super::{load, output};
@@ -21,8 +22,10 @@ use crate::study::{self, Numbers};
 impl Render {
     /// Does it. The clock is read here only: what the core makes does not depend on time.
     pub(super) fn run(&self) -> Result<(), CliError> {
-        if let Some(frames) = self.frames {
-            return self.run_frames(frames);
+        match self.pictures {
+            Pictures::One => {}
+            Pictures::Frames(frames) => return self.run_frames(frames),
+            Pictures::Turntable(views) => return self.run_turntable(views),
         }
         // A picture that could not be written is not worth its rendering.
         export::check_target(&self.output, &self.project.sources())

@@ -119,7 +119,12 @@ impl Still {
 
     /// Packs the medium and bakes the laws.
     pub fn scene(&self) -> Scene {
-        self.job.scene(None)
+        self.scene_after(None)
+    }
+
+    /// [`Still::scene`], which takes over from `before` what is the same.
+    pub fn scene_after(&self, before: Option<&Scene>) -> Scene {
+        self.job.scene(before)
     }
 
     /// Renders in the calling thread's rayon pool. `progress` hears the finished share, 0 to 1, from any thread.

@@ -1,5 +1,7 @@
 //! What one frame takes from its own file, set as keys so that others take the same.
 
+use glam::DVec3;
+
 use crate::math::Aabb;
 use crate::project::settings::VolumeSettings;
 use crate::project::{BackdropKind, FieldSettings, Job, Project, Up};
@@ -101,6 +103,20 @@ impl Taken {
             self.peaks.retain(|(it, _)| *it != kind);
             self.peaks.push((kind, other.peak(kind)));
         }
+    }
+
+    /// Makes room for the fire as it is seen from all around.
+    pub(super) fn turn_round(&mut self) {
+        if self.fire.is_empty() {
+            return;
+        }
+        let (centre, half) = (self.fire.centre(), 0.5 * self.fire.size());
+        let radius = half.x.hypot(half.y);
+        let half = DVec3::new(radius, radius, half.z);
+        self.fire = Aabb {
+            min: centre - half,
+            max: centre + half,
+        };
     }
 
     /// Sets it all in a project, for pictures of its size. What is set by hand stays, and a field that was not made from

@@ -7,13 +7,14 @@
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Read as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sha2::{Digest as _, Sha256};
 
 use super::order::Order;
+use super::shots::Shot;
 use crate::export::{Format, scene_of};
-use crate::project::{BackdropKind, Project};
+use crate::project::BackdropKind;
 use crate::volume::VolumeError;
 
 /// Bytes of a file that are held at once.
@@ -23,12 +24,12 @@ const READ_BYTES: usize = 1 << 20;
 ///
 /// # Errors
 /// [`VolumeError::Io`]: a file cannot be read.
-pub(super) fn mark(order: &Order, paths: &[PathBuf]) -> Result<String, VolumeError> {
+pub(super) fn mark(order: &Order, shot: &Shot) -> Result<String, VolumeError> {
     let stage = &order.project.stage;
     let picture = stage.backdrop_picture.iter();
     let picture = picture.filter(|_| stage.backdrop == BackdropKind::Picture);
     let mut files = Sha256::new();
-    for path in paths.iter().chain(picture) {
+    for path in shot.paths.iter().chain(picture) {
         let bytes = digest_of_file(path).map_err(|source| VolumeError::Io {
             path: path.clone(),
             source,
@@ -38,7 +39,7 @@ pub(super) fn mark(order: &Order, paths: &[PathBuf]) -> Result<String, VolumeErr
     let files = hex(&files.finalize());
     Ok(format!(
         "frame of files sha256 {files}, settings sha256 {}",
-        settings(order)
+        settings(order, shot)
     ))
 }
 
@@ -61,8 +62,8 @@ fn digest_of_file(path: &Path) -> std::io::Result<impl AsRef<[u8]> + use<>> {
 }
 
 /// The digest of everything that makes a picture beside its files.
-fn settings(order: &Order) -> String {
-    let mut project: Project = order.project.clone();
+fn settings(order: &Order, shot: &Shot) -> String {
+    let mut project = shot.seen(&order.project);
     project.volume.path.clear();
     project.stage.backdrop_picture = None;
     let mut digest = Sha256::new();

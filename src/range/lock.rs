@@ -5,21 +5,19 @@
 //! and white are measured, and step, wavelengths and rays are chosen: what is exact enough there is so elsewhere, and
 //! nothing is exposed by a frame before the fire is lit.
 
-use std::path::PathBuf;
-
 use super::error::{FrameError, RangeError};
 use super::hold::Taken;
 use super::look::{METERED_SIDE, MOST, brightness, order_of, within};
-use super::{open, project_of};
+use super::reader::Reader;
+use super::shots::{Shot, Shots};
 use crate::export::Still;
 use crate::project::Project;
 use crate::render::develop::Metering;
 use crate::render::plan::Decision;
 use crate::render::{Cancel, Plan, Settings, render_planned};
 use crate::scene::Scene;
-use crate::sequence::Sequence;
 use crate::study::{self, Numbers};
-use crate::volume::{FieldKind, Watch};
+use crate::volume::FieldKind;
 
 /// A project whose every frame is made alike.
 #[derive(Debug, Clone)]
@@ -33,31 +31,30 @@ pub struct Locked {
 }
 
 /// A frame that is looked at.
-struct Look {
-    number: u64,
-    paths: Vec<PathBuf>,
+struct Look<'a> {
+    shot: &'a Shot,
     taken: Taken,
     flaws: Vec<String>,
 }
 
-/// Finds what is to be held over the frames of these numbers, in the calling thread's rayon pool. `progress` hears the
-/// finished share, 0 to 1.
+/// Finds what is to be held over these pictures, in the calling thread's rayon pool. `progress` hears the finished share,
+/// 0 to 1.
 ///
 /// # Errors
 /// [`RangeError::NoFrame`] where no frame can be read, [`RangeError::Cancelled`].
 pub fn lock(
     project: &Project,
-    sequence: &Sequence,
-    numbers: &[u64],
+    shots: &Shots,
     cancel: &Cancel,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Locked, RangeError> {
-    let looks = look_at(project, sequence, numbers, cancel)?;
+    let mut reader = Reader::new(cancel);
+    let looks = look_at(project, shots, &mut reader, cancel)?;
     // Twice as many steps as frames, and two more.
     let all = (2 * looks.len() + 2) as f64;
     progress(looks.len() as f64 / all);
 
-    let heat = |look: &Look| look.taken.peak(FieldKind::Temperature);
+    let heat = |look: &Look<'_>| look.taken.peak(FieldKind::Temperature);
     let hottest = looks.iter().fold(&looks[0], |hottest, look| {
         if heat(look) > heat(hottest) {
             look
@@ -69,16 +66,22 @@ pub fn lock(
     for look in &looks {
         taken.join(&look.taken);
     }
+    if shots.turns() {
+        taken.turn_round();
+    }
     let assumed = hottest.flaws.clone();
     let mut project = project.clone();
     taken.hold_all(&mut project);
 
-    let mut brightest: Option<(f64, &Look)> = None;
+    let mut brightest: Option<(f64, &Look<'_>)> = None;
     let mut decisions: Vec<Decision> = Vec::new();
     for (i, look) in looks.iter().enumerate() {
-        let Ok((still, scene)) = still_of(&project, look) else {
-            continue;
-        };
+        let still = reader.still(&project, look.shot);
+        if cancel.is_cancelled() {
+            return Err(RangeError::Cancelled);
+        }
+        let Ok(still) = still else { continue };
+        let scene = reader.scene(&still);
         let settings = &still.job.settings;
         join(&mut decisions, still.plan(&scene).decisions);
         let y = brightness(&scene, settings, cancel).ok_or(RangeError::Cancelled)?;
@@ -90,57 +93,65 @@ pub fn lock(
     project.effects = project.effects.as_decided(&decisions);
 
     let (_, measured) = brightest.unwrap_or((0.0, hottest));
-    let failed = |source| RangeError::NoFrame {
-        number: measured.number,
-        source,
-    };
-    let (still, scene) = still_of(&project, measured).map_err(failed)?;
+    let number = measured.shot.number;
+    let failed = |source| RangeError::NoFrame { number, source };
+    let still = reader.still(&project, measured.shot).map_err(failed)?;
+    let scene = reader.scene(&still);
     let settings = choose(&mut project, &still, &scene, cancel);
     progress((all - 1.0) / all);
     let metering = meter(&scene, &settings, cancel).ok_or(RangeError::Cancelled)?;
     project.view.hold(&metering);
-    project.volume.path.clone_from(&measured.paths);
+    project.volume.path.clone_from(&measured.shot.paths);
     progress(1.0);
     let told: Vec<&str> = still.job.flaws.iter().collect();
+    // Views of one fire are one file's.
+    let hottest_in = |words: String| {
+        if shots.turns() {
+            return words;
+        }
+        format!("{words} (in frame {}, and so in all)", hottest.shot.number)
+    };
     Ok(Locked {
         project,
-        measured_on: measured.number,
+        measured_on: number,
         assumed: assumed
             .into_iter()
             .filter(|words| !told.contains(&words.as_str()))
-            .map(|words| format!("{words} (in frame {}, and so in all)", hottest.number))
+            .map(hottest_in)
             .collect(),
     })
 }
 
 /// Looks at a few frames that can be read.
-fn look_at(
+fn look_at<'a>(
     project: &Project,
-    sequence: &Sequence,
-    numbers: &[u64],
+    shots: &'a Shots,
+    reader: &mut Reader<'_>,
     cancel: &Cancel,
-) -> Result<Vec<Look>, RangeError> {
+) -> Result<Vec<Look<'a>>, RangeError> {
     let mut looks = Vec::new();
     let mut first_error = None;
-    for (i, number) in order_of(numbers).into_iter().enumerate() {
-        if cancel.is_cancelled() {
-            return Err(RangeError::Cancelled);
-        }
+    let order = order_of(shots.len());
+    let all: Vec<&Shot> = shots.iter().collect();
+    for (i, shot) in order.into_iter().map(|at| all[at]).enumerate() {
         if i >= MOST && !looks.is_empty() {
             break;
         }
-        let paths = sequence.paths(number);
-        let looked = open(project, &paths, &Watch::default())
+        let volume = reader.volume(project, shot);
+        if cancel.is_cancelled() {
+            return Err(RangeError::Cancelled);
+        }
+        let looked = volume
             .map_err(FrameError::from)
             .and_then(|volume| Ok(project.job(&volume)?));
         match looked {
             Ok(job) => looks.push(Look {
-                number,
-                paths,
+                shot,
                 taken: Taken::of(project, &job),
                 flaws: job.flaws.iter().map(String::from).collect(),
             }),
             Err(source) => {
+                let number = shot.number;
                 first_error.get_or_insert(RangeError::NoFrame { number, source });
             }
         }
@@ -149,14 +160,6 @@ fn look_at(
         Some(error) if looks.is_empty() => Err(error),
         _ => Ok(looks),
     }
-}
-
-fn still_of(held: &Project, look: &Look) -> Result<(Still, Scene), FrameError> {
-    let volume = open(held, &look.paths, &Watch::default())?;
-    let (project, _) = project_of(held, look.paths.clone(), &volume);
-    let still = Still::new(&project, &volume, None)?;
-    let scene = still.scene();
-    Ok((still, scene))
 }
 
 /// What one frame calls for, the others are computed with as well.

@@ -16,20 +16,19 @@ pub(super) const METERED_SIDE: u32 = 480;
 /// Step of a march that only tells which frame is brightest, voxels.
 const LOOK_STEP_VOXELS: f64 = 2.0;
 
-/// Frames spread over a range, its ends among them; then all others, in case none of those can be read. At most [`MOST`] of
-/// them are to be looked at.
-pub(super) fn order_of(numbers: &[u64]) -> Vec<u64> {
-    let spread: Vec<usize> = if numbers.len() <= MOST {
-        (0..numbers.len()).collect()
+/// Frames spread over a range of so many, its ends among them; then all others, in case none of those can be read. At most
+/// [`MOST`] of them are to be looked at.
+pub(super) fn order_of(count: usize) -> Vec<usize> {
+    let spread: Vec<usize> = if count <= MOST {
+        (0..count).collect()
     } else {
-        let last = numbers.len() - 1;
+        let last = count - 1;
         (0..MOST)
             .map(|i| (i * last + (MOST - 1) / 2) / (MOST - 1))
             .collect()
     };
-    let rest = (0..numbers.len()).filter(|at| !spread.contains(at));
-    let order: Vec<usize> = spread.iter().copied().chain(rest).collect();
-    order.into_iter().map(|at| numbers[at]).collect()
+    let rest = (0..count).filter(|at| !spread.contains(at));
+    spread.iter().copied().chain(rest).collect()
 }
 
 /// A size of the same shape with no side longer than this.
@@ -69,12 +68,11 @@ mod tests {
 
     #[test]
     fn frames_are_looked_at_from_end_to_end_and_the_others_after_them() {
-        assert_eq!(order_of(&[7]), [7]);
-        assert_eq!(order_of(&[1, 2, 9]), [1, 2, 9]);
-        let numbers: Vec<u64> = (1..=12).collect();
-        let order = order_of(&numbers);
-        assert_eq!(order[..MOST], [1, 4, 7, 9, 12]);
-        assert_eq!(order[MOST..], [2, 3, 5, 6, 8, 10, 11]);
+        assert_eq!(order_of(1), [0]);
+        assert_eq!(order_of(3), [0, 1, 2]);
+        let order = order_of(12);
+        assert_eq!(order[..MOST], [0, 3, 6, 8, 11]);
+        assert_eq!(order[MOST..], [1, 2, 4, 5, 7, 9, 10]);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A range of a sequence as pictures, the one road of command line and window.
+//! A range of a sequence as pictures, or one fire from all around: the one road of command line and window.
 //!
 //! What one picture takes from its own file or measures on itself would flicker from frame to frame: the mapping of fields
 //! at the file's peak, a camera that frames the fire, the automatic exposure and the white, the effects that can be seen, the
@@ -12,6 +12,8 @@ mod kept;
 mod lock;
 mod look;
 mod order;
+mod reader;
+mod shots;
 mod target;
 mod write;
 
@@ -19,6 +21,7 @@ pub use error::{FrameError, RangeError};
 pub use hold::{Taken, is_held};
 pub use lock::{Locked, lock};
 pub use order::Order;
+pub use shots::{Shot, Shots};
 pub use target::target;
 pub use write::{Ended, Made, Outcome, Seconds, write};
 

@@ -2,19 +2,17 @@
 
 use std::path::PathBuf;
 
+use super::shots::Shots;
 use crate::export::Format;
 use crate::project::Project;
-use crate::sequence::Sequence;
 
 /// Pictures to be written.
 #[derive(Debug, Clone)]
 pub struct Order {
     /// What is set, held over the range as [`lock()`](super::lock()) does.
     pub project: Project,
-    /// Whose frames they are.
-    pub sequence: Sequence,
-    /// Which of them, in the order in which they are made.
-    pub numbers: Vec<u64>,
+    /// Of what they are.
+    pub shots: Shots,
     /// Where to; see [`super::target()`].
     pub output: PathBuf,
     /// As what.

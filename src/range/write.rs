@@ -1,4 +1,4 @@
-//! Frame by frame to the disk.
+//! Picture by picture to the disk.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -6,13 +6,13 @@ use std::time::Instant;
 use super::error::{FrameError, RangeError};
 use super::kept::{is_there, mark};
 use super::order::Order;
-use super::{open, project_of, target};
+use super::reader::Reader;
+use super::shots::Shot;
 use crate::export::{ExportError, Still, Written, check_target};
 use crate::render::clock::timed_on_pool;
 use crate::render::{Cancel, Frame, Gate};
 use crate::scene::Scene;
 use crate::study::{self, Aim};
-use crate::volume::Watch;
 
 /// A frame that is done with.
 #[derive(Debug)]
@@ -80,14 +80,16 @@ pub fn write(
     progress: &(dyn Fn(f64) + Sync),
     ended: &mut (dyn FnMut(Ended) + Send),
 ) -> Result<(), RangeError> {
-    for &number in &order.numbers {
+    let mut reader = Reader::new(cancel);
+    for (shot, target) in order.shots.iter().zip(order.shots.targets(&order.output)) {
         gate.pass(cancel);
         if cancel.is_cancelled() {
             return Err(RangeError::Cancelled);
         }
-        let target = target(&order.output, number, order.sequence.padding());
-        let outcome = match frame(order, number, &target, cancel, progress) {
+        let number = shot.number;
+        let outcome = match frame(order, shot, &target, &mut reader, (cancel, progress)) {
             Ok(outcome) => outcome,
+            Err(Stop::Frame(_)) if cancel.is_cancelled() => return Err(RangeError::Cancelled),
             Err(Stop::Frame(error)) => Outcome::Failed(error),
             Err(Stop::Range(ExportError::Cancelled)) => return Err(RangeError::Cancelled),
             Err(Stop::Range(source)) => return Err(RangeError::Write { number, source }),
@@ -115,29 +117,25 @@ impl<E: Into<FrameError>> From<E> for Stop {
 
 fn frame(
     order: &Order,
-    number: u64,
+    shot: &Shot,
     target: &Path,
-    cancel: &Cancel,
-    progress: &(dyn Fn(f64) + Sync),
+    reader: &mut Reader<'_>,
+    (cancel, progress): (&Cancel, &(dyn Fn(f64) + Sync)),
 ) -> Result<Outcome, Stop> {
-    let paths = order.sequence.paths(number);
     let picture = order.project.stage.backdrop_picture.iter();
-    let sources: Vec<PathBuf> = paths.iter().chain(picture).cloned().collect();
+    let sources: Vec<PathBuf> = shot.paths.iter().chain(picture).cloned().collect();
     check_target(target, &sources)?;
-    let mark = mark(order, &paths)?;
+    let mark = mark(order, shot)?;
     if is_there(target, order.format, &mark) {
         return Ok(Outcome::Kept);
     }
     let begun = Instant::now();
-    let volume = open(&order.project, &paths, &Watch::default())?;
+    let mut still = reader.still(&order.project, shot)?.marked(mark);
     let load = begun.elapsed().as_secs_f64();
-    let (project, without) = project_of(&order.project, paths, &volume);
-    let mut still = Still::new(&project, &volume, None)?.marked(mark);
-    still.job.flaws.extend(without);
     still.job.flaws.extend(order.assumed.iter().cloned());
 
     let begun = Instant::now();
-    let scene = still.scene();
+    let scene = reader.scene(&still);
     let bake = begun.elapsed().as_secs_f64();
     let ((aim, frame), took) = timed_on_pool(|| {
         let (settings, wished) = (&still.job.settings, still.job.accuracy);

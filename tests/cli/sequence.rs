@@ -285,3 +285,76 @@ fn what_makes_no_sense_is_said() {
         "{names:?}"
     );
 }
+
+/// Levels of a picture of 8 bits, in columns from the left.
+fn columns(path: &Path) -> Vec<f64> {
+    let (pixels, info, _) = read_png(path);
+    let width = info.width as usize;
+    let mean = |x: usize| {
+        let rows = pixels.chunks_exact(3 * width);
+        rows.map(|row| {
+            row[3 * x..3 * x + 3]
+                .iter()
+                .map(|&it| f64::from(it))
+                .sum::<f64>()
+        })
+        .sum::<f64>()
+    };
+    (0..width).map(mean).collect()
+}
+
+#[test]
+fn a_turntable_sees_the_fire_from_all_around_and_keeps_what_is_there() {
+    let place = place();
+    // A hot cube on the right of a cooler one.
+    let words =
+        format!("render density_12.txt temperature_12.txt -o turn.png --turntable 4 {QUICK}");
+    let [said, _] = place.expect(0, &format!("{words} --stats s.json"));
+    assert!(
+        said.ends_with("4 views: 4 rendered, 0 kept, 0 failed\n"),
+        "{said}"
+    );
+    let [front, right, back, left] =
+        [1, 2, 3, 4].map(|number| columns(&place.path(&format!("turn_000{number}.png"))));
+    let off = |one: &[f64], other: &[f64]| {
+        let all: f64 = one.iter().sum();
+        let apart = one
+            .iter()
+            .zip(other)
+            .map(|(one, other)| (one - other).abs());
+        apart.sum::<f64>() / all
+    };
+    let mirrored: Vec<f64> = back.iter().rev().copied().collect();
+    assert!(
+        off(&front, &mirrored) < 0.01 && off(&front, &back) > 0.05,
+        "{front:?} {back:?}"
+    );
+    // From the sides one cube hides the other, and the nearer one is larger.
+    let lit = |columns: &[f64]| columns.iter().filter(|&&level| level > 0.0).count();
+    assert!(lit(&right) < lit(&front) && lit(&left) < lit(&front));
+    let stats = stats(&place, "s.json");
+    assert_eq!(stats["range"], "turntable of 4 views");
+    // Exposure and white are those of one view in all.
+    let held = |i: usize| stats["frames"][i]["exposure"].clone();
+    assert!(held(0).is_object() && (1..4).all(|i| held(i)["view"] == held(0)["view"]));
+
+    fs::remove_file(place.path("turn_0002.png")).unwrap();
+    let [said, _] = place.expect(0, &words);
+    assert!(
+        said.ends_with("4 views: 1 rendered, 3 kept, 0 failed\n"),
+        "{said}"
+    );
+    // A built-in flame has no files, and is turned all the same.
+    let [said, _] = place.expect(0, &format!("render -o own.png --turntable 2 {QUICK}"));
+    assert!(
+        said.ends_with("2 views: 2 rendered, 0 kept, 0 failed\n"),
+        "{said}"
+    );
+    for wrong in [
+        "--turntable 1",
+        "--turntable 4 --frames 8-12",
+        "--turntable 4 --time-limit 3",
+    ] {
+        place.expect(2, &format!("{RANGE} -o no.png {wrong}"));
+    }
+}

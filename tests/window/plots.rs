@@ -116,6 +116,20 @@ fn the_histogram_tells_what_is_black_and_what_is_clipped() {
         after[1] > before[1] + 10.0 && after[0] <= before[0],
         "{before:?} {after:?}"
     );
+    // Marks stay when the histogram goes.
+    let marks = |harness: &Harness<'_, App>| {
+        let mark = harness.get_by_label("Mark what is clipped");
+        mark.accesskit_node().toggled()
+    };
+    let off = marks(&harness);
+    harness
+        .get_by_label("Mark what is clipped")
+        .click_accesskit();
+    harness.run_steps(3);
+    assert_ne!(marks(&harness), off);
+    harness.key_press(Key::J);
+    harness.run_steps(3);
+    assert_eq!(marks(&harness), off);
     harness.key_press(Key::H);
     harness.run_steps(3);
     assert!(harness.query_by_label_contains("Histogram of").is_none());

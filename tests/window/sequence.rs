@@ -283,8 +283,8 @@ fn a_range_is_exported_as_the_window_holds_it_and_goes_on_where_it_was_stopped()
         harness.run_steps(2);
     }
     harness.get_by_label("Export range").click_accesskit();
-    wait_for(&mut harness, "frames written");
-    harness.get_by_label_contains("4 frames written, 0 kept");
+    wait_for(&mut harness, "pictures written");
+    harness.get_by_label_contains("4 pictures written, 0 kept");
     harness.get_by_label_contains("1 failed");
     let of = |number: u32| export::read_png(&output.path().join(format!("fire_{number:02}.png")));
     for number in [1, 2, 4, 6] {
@@ -309,9 +309,11 @@ fn a_range_is_exported_as_the_window_holds_it_and_goes_on_where_it_was_stopped()
     assert!(mean(1) < mean(2) && mean(2) < mean(4) && mean(4) < mean(6));
 
     std::fs::remove_file(output.path().join("fire_04.png")).expect("it is there");
+    // What is there is told before it could be lost.
+    wait_for(&mut harness, "3 of 5 exist");
     harness.get_by_label("Export range").click_accesskit();
     harness.run_steps(4);
-    wait_for(&mut harness, "1 frames written, 3 kept");
+    wait_for(&mut harness, "1 picture written, 3 kept");
 }
 
 #[test]
@@ -333,4 +335,40 @@ fn a_frame_that_lacks_a_grid_is_shown_without_it() {
         smoke(harness.state()),
         "what one frame lacks is not lost to the others"
     );
+}
+
+#[test]
+fn a_turntable_goes_once_round_what_is_on_show() {
+    let mut harness = window_of(Project::default(), [900.0, 420.0]);
+    harness.get_by_label("Export…").click_accesskit();
+    harness.run_steps(4);
+    let output = tempfile::tempdir().expect("a temporary folder");
+    let field = harness.get_by_role_and_label(Role::TextInput, "File");
+    let name = output.path().join("turn.png");
+    field.set_text_value_accesskit(name.to_str().expect("a path of letters"));
+    harness.run_steps(2);
+    for (label, value) in [("Width", 24.0), ("Height", 16.0), ("Views", 4.0)] {
+        harness
+            .get_by_role_and_label(Role::SpinButton, label)
+            .set_value_accesskit(value);
+        harness.run_steps(2);
+    }
+    harness.get_by_label("views all around, 90° apart");
+    let camera = harness.state().job().expect("a job").camera;
+    let exposure = harness.state().view().exposure;
+    harness.get_by_label("Export turntable").click_accesskit();
+    wait_for(&mut harness, "4 pictures written, 0 kept");
+    for quarter in 0..4_u8 {
+        let name = format!("turn_{:04}.png", quarter + 1);
+        let (_, _, project) = export::read_png(&output.path().join(name));
+        let turned = camera.orbited(f64::from(quarter) * std::f64::consts::FRAC_PI_2, 0.0);
+        let eye = project.camera.eye.expect("where it was seen from");
+        assert!(eye.distance(turned.eye) < 1e-9, "{eye} {}", turned.eye);
+        assert_eq!(project.camera.target, Some(camera.target));
+        let white = project
+            .view
+            .display_white_cd_m2
+            .expect("an exposure that is held");
+        assert!((683.0 / white / exposure - 1.0).abs() < 1e-3, "{white}");
+    }
 }

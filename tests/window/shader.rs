@@ -259,6 +259,46 @@ fn the_picture_lies_where_it_was_put_and_nothing_is_drawn_beside_it() {
     }
 }
 
+#[test]
+fn what_is_clipped_is_striped_and_nothing_else_is() {
+    let Some(state) = device() else { return };
+    // From darkness to twice display white, row by row.
+    let (width, height) = (16_u32, 8_u32);
+    let colours: Vec<[f32; 3]> = (0..width * height)
+        .map(|i| light(2.0 * (i % width) as f32 / (width - 1) as f32))
+        .collect();
+    let film = film([width, height], 1, &colours);
+    for format in [
+        wgpu::TextureFormat::Rgba8Unorm,
+        // What the card encodes itself is striped alike.
+        wgpu::TextureFormat::Rgba8UnormSrgb,
+    ] {
+        let plain_canvas = Canvas {
+            format,
+            ..Canvas::new(1.0, [0.0; 2], [width, height])
+        };
+        let striped = Canvas {
+            marks_clipped: true,
+            ..plain_canvas
+        };
+        let before = plain_canvas.shown_by_shader(&state, &film, 1, &plain());
+        let after = striped.shown_by_shader(&state, &film, 1, &plain());
+        let is_clipped = |pixel: &[f32; 4]| pixel[..3].iter().any(|&v| v > 254.5 / 255.0);
+        let changed = before.iter().zip(&after).map(|(one, other)| one != other);
+        let clipped = before.iter().filter(|it| is_clipped(it)).count();
+        assert!((40..90).contains(&clipped), "{clipped}");
+        assert!(
+            before
+                .iter()
+                .zip(changed.clone())
+                .all(|(it, changed)| is_clipped(it) || !changed)
+        );
+        // Every second stripe.
+        let share = changed.filter(|it| *it).count() as f64 / clipped as f64;
+        assert!((0.4..0.6).contains(&share), "{share}");
+    }
+}
+
 /// What is on a canvas before the picture, clear so that it cannot be mistaken for one.
 const CLEARED: [f32; 4] = [0.0; 4];
 
@@ -266,6 +306,7 @@ const CLEARED: [f32; 4] = [0.0; 4];
 struct Canvas {
     format: wgpu::TextureFormat,
     mapping: Mapping,
+    marks_clipped: bool,
 }
 
 impl Canvas {
@@ -278,6 +319,7 @@ impl Canvas {
                 corner,
                 canvas,
             },
+            marks_clipped: false,
         }
     }
 
@@ -308,7 +350,7 @@ impl Canvas {
         });
         let mut display = Display::new(device, self.format);
         display.upload(device, queue, film, &vec![stride; film.pixels().len()]);
-        display.set_view(queue, view);
+        display.set_view(queue, view, self.marks_clipped);
         display.set_mapping(queue, &self.mapping);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {

@@ -103,8 +103,9 @@ impl Display {
         write(queue, &self.film, &self.staging);
     }
 
-    /// Develops with this view from now on.
-    pub fn set_view(&mut self, queue: &wgpu::Queue, view: &BakedView) {
+    /// Develops with this view from now on, and lays stripes over what is at the display's highest level if that is to be
+    /// marked.
+    pub fn set_view(&mut self, queue: &wgpu::Queue, view: &BakedView, marks_clipped: bool) {
         // Rows of a matrix, with a number behind each.
         let rows = |[r, g, b]: [[f32; 3]; 3], w: [f32; 3]| {
             let row = |[x, y, z]: [f32; 3], w| [x, y, z, w];
@@ -113,7 +114,8 @@ impl Display {
         let (outside, start) = view.paling.map_or((0.0, 0.0), |p| (p.outside, p.start));
         let matrix = rows(view.rgb_from_xyz, [view.softness, outside, start]);
         let road = f32::from(view.road as u8);
-        let hue = rows(view.hue.receptors_from_rgb, [road, view.exposure, 0.0]);
+        let marks = f32::from(u8::from(marks_clipped));
+        let hue = rows(view.hue.receptors_from_rgb, [road, view.exposure, marks]);
         let back = rows(view.hue.rgb_from_receptors, view.hue.lightness);
         let [lr, lg, lb] = view.luminance;
         let last = (TABLE_LEN - 1) as f32;

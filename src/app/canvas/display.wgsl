@@ -10,8 +10,8 @@ struct View {
     // log2 of the light at a table's first point, points for each stop, last point, 1 where the target encodes sRGB
     // itself.
     table: vec4<f32>,
-    // Rows of the matrix from linear Rec. 709 to the receptors of the hue; w of the first two: the road, as `Road` has
-    // it, and what Y is multiplied by for its false colour.
+    // Rows of the matrix from linear Rec. 709 to the receptors of the hue; w: the road, as `Road` has it, what Y is
+    // multiplied by for its false colour, and 1 where clipped channels are marked.
     receptors_from_rgb: array<vec4<f32>, 3>,
     // Rows of the matrix back; w: the weights of the lightness.
     rgb_from_receptors: array<vec4<f32>, 3>,
@@ -362,6 +362,23 @@ fn mean_light(low: vec2<f32>, high: vec2<f32>, size: vec2<i32>) -> vec3<f32> {
     return sum / weights;
 }
 
+// Stripes over what is at the highest level of a display in any channel. The other stripes show what is there.
+const HIGHEST_LEVEL: f32 = 254.5 / 255.0;
+const STRIPE: f32 = 4.0;
+const MARK: vec3<f32> = vec3<f32>(0.0, 0.75, 1.0);
+
+fn marked(encoded: vec3<f32>, column_row: vec2<f32>) -> vec3<f32> {
+    let is_clipped = max(encoded.r, max(encoded.g, encoded.b)) >= HIGHEST_LEVEL;
+    let is_striped = fract((column_row.x + column_row.y) / (2.0 * STRIPE)) < 0.5;
+    let marks = view.receptors_from_rgb[2].w > 0.5;
+    return select(encoded, MARK, marks && is_clipped && is_striped);
+}
+
+fn srgb_decoded(encoded: vec3<f32>) -> vec3<f32> {
+    let power = pow((encoded + 0.055) / 1.055, vec3<f32>(2.4));
+    return select(power, encoded / 12.92, encoded <= vec3<f32>(0.04045));
+}
+
 @fragment
 fn pixel(at: Corner) -> @location(0) vec4<f32> {
     let size = vec2<i32>(textureDimensions(film));
@@ -378,5 +395,9 @@ fn pixel(at: Corner) -> @location(0) vec4<f32> {
     let inside_high = min(high, vec2<f32>(size));
     let linear = shown(mean_light(inside_low, inside_high, size));
     let encoded = srgb_encoded(clamp(linear, vec3<f32>(0.0), vec3<f32>(1.0)));
-    return vec4<f32>(select(encoded, linear, view.table.w > 0.5), 1.0);
+    let seen = marked(encoded, column_row);
+    if view.table.w > 0.5 {
+        return vec4<f32>(select(linear, srgb_decoded(seen), any(seen != encoded)), 1.0);
+    }
+    return vec4<f32>(seen, 1.0);
 }

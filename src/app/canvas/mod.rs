@@ -57,6 +57,8 @@ pub(super) struct Canvas {
 pub(super) struct Over<'a> {
     /// A map of it.
     pub(super) map: Option<TextureId>,
+    /// Whether what is at the display's highest level is marked.
+    pub(super) marks_clipped: bool,
     /// A snapshot.
     pub(super) beside: Option<Beside<'a>>,
 }
@@ -198,6 +200,7 @@ impl Canvas {
                 film: picture.film(),
                 strides: picture.strides(),
                 view,
+                marks_clipped: over.marks_clipped,
                 mapping,
             };
             self.draw(ui, below, &place, &content, over);
@@ -267,6 +270,7 @@ impl Canvas {
             film: beside.film,
             strides: beside.strides,
             view: beside.view,
+            marks_clipped: content.marks_clipped,
             mapping: content
                 .mapping
                 .for_another(content.film.size(), beside.film.size()),

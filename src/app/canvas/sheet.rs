@@ -16,7 +16,8 @@ pub(super) struct Sheet {
     /// Which of the displays.
     slot: usize,
     film: Option<u64>,
-    view: Option<View>,
+    /// With whether what is clipped is marked.
+    view: Option<(View, bool)>,
     mapping: Option<Mapping>,
 }
 
@@ -27,6 +28,8 @@ pub(super) struct Content<'a> {
     pub(super) film: &'a Film,
     pub(super) strides: &'a [u8],
     pub(super) view: &'a View,
+    /// Whether what the view clips is marked.
+    pub(super) marks_clipped: bool,
     pub(super) mapping: Mapping,
 }
 
@@ -62,9 +65,11 @@ impl Sheet {
             display.upload(&state.device, &state.queue, content.film, content.strides);
             self.film = Some(content.version);
         }
-        if self.view != Some(*content.view) {
-            display.set_view(&state.queue, &BakedView::new(content.view));
-            self.view = Some(*content.view);
+        let view = (*content.view, content.marks_clipped);
+        if self.view != Some(view) {
+            let baked = BakedView::new(content.view);
+            display.set_view(&state.queue, &baked, content.marks_clipped);
+            self.view = Some(view);
         }
         if self.mapping != Some(content.mapping) {
             display.set_mapping(&state.queue, &content.mapping);

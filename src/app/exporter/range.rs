@@ -1,4 +1,4 @@
-//! A range of frames, exported by the road of the command line.
+//! A range of frames, or one fire from all around, exported by the road of the command line.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -9,18 +9,17 @@ use super::order::Wish;
 use crate::app::Document;
 use crate::export::Format;
 use crate::project::Project;
-use crate::range::{self, Outcome, RangeError, Taken};
+use crate::range::{self, Outcome, RangeError, Shots, Taken};
 use crate::render::develop::Metering;
 use crate::render::{Cancel, Effects, Flaws, Gate};
 use crate::sequence::Sequence;
 
-/// Frames to be written.
+/// Pictures to be written.
 #[derive(Debug, Clone)]
 pub(in crate::app) struct RangeOrder {
     /// What is set, with what the window holds over its frames.
     pub(super) project: Project,
-    pub(super) sequence: Arc<Sequence>,
-    pub(super) numbers: Vec<u64>,
+    pub(super) shots: Shots,
     /// Where to; see [`range::target`].
     pub(super) output: PathBuf,
     pub(super) format: Format,
@@ -28,7 +27,7 @@ pub(in crate::app) struct RangeOrder {
     pub(super) assumed: Vec<String>,
 }
 
-/// What became of the frames.
+/// What became of the pictures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(in crate::app) struct Counts {
     /// Pictures that were made.
@@ -47,6 +46,18 @@ pub(in crate::app) struct Playing {
     pub(in crate::app) assumed: Vec<String>,
 }
 
+impl Playing {
+    /// The frames that play.
+    pub(in crate::app) fn shots(&self) -> Shots {
+        Shots::frames(&self.sequence, &self.numbers)
+    }
+
+    /// Where pictures of theirs go that are named after that of the frame on show.
+    pub(in crate::app) fn output(&self, path: &Path) -> PathBuf {
+        numbered(path, &self.sequence.padded(self.current))
+    }
+}
+
 impl Wish {
     /// The order of all frames that play: seen from where the window sees them, with its brightness, its effects and its mapping
     /// of fields. `None` while nothing is shown.
@@ -57,27 +68,55 @@ impl Wish {
         metering: Option<Metering>,
         on_show: Option<Effects>,
     ) -> Option<RangeOrder> {
+        Some(RangeOrder {
+            project: self.held(document, metering, on_show)?,
+            shots: playing.shots(),
+            output: playing.output(&self.path),
+            format: self.format,
+            assumed: playing.assumed,
+        })
+    }
+
+    /// The order of so many views of what is on show, once round it from where the window sees it. `None` while nothing is
+    /// shown.
+    pub(in crate::app) fn turntable(
+        self,
+        document: &Document,
+        views: u32,
+        metering: Option<Metering>,
+        on_show: Option<Effects>,
+    ) -> Option<RangeOrder> {
+        let sources = document.volume().map_or(&[][..], |volume| &volume.sources);
+        Some(RangeOrder {
+            project: self.held(document, metering, on_show)?,
+            shots: Shots::turntable(sources, views),
+            output: self.path,
+            format: self.format,
+            assumed: Vec::new(),
+        })
+    }
+
+    /// What is set, with what the window has measured and found where nothing is.
+    fn held(
+        &self,
+        document: &Document,
+        metering: Option<Metering>,
+        on_show: Option<Effects>,
+    ) -> Option<Project> {
         let mut project = self.project(document)?;
         Taken::of(&document.project, document.last_job()?).hold(&mut project);
-        // What another frame calls for beside them is found when all are looked at.
+        // What another frame or view calls for beside them is found when all are looked at.
         project.effects = on_show.map_or(project.effects, |shown| project.effects.computing(shown));
         if let Some(metering) = metering {
             project.view.hold(&metering);
         }
-        Some(RangeOrder {
-            output: numbered(&self.path, &playing.sequence.padded(playing.current)),
-            format: self.format,
-            project,
-            sequence: playing.sequence,
-            numbers: playing.numbers,
-            assumed: playing.assumed,
-        })
+        Some(project)
     }
 }
 
 /// A name that ends with the number of the frame on show, with that of each frame in its place. Digits that are a part of a longer
 /// number, or a lone one that belongs to a word as in `v2`, are no frame's.
-pub(in crate::app) fn numbered(path: &Path, current: &str) -> PathBuf {
+fn numbered(path: &Path, current: &str) -> PathBuf {
     let stem = path.file_stem().and_then(|stem| stem.to_str());
     let before = stem.and_then(|stem| stem.strip_suffix(current));
     let is_number = |before: &&str| {
@@ -109,17 +148,15 @@ pub(super) fn export(
         error => NotExported::Range(error),
     };
     // What is measured first takes about as long as a frame.
-    let all = order.numbers.len() as f64 + 1.0;
-    let (project, sequence) = (&order.project, &order.sequence);
+    let all = order.shots.len() as f64 + 1.0;
     let measuring = |share: f64| progress(share / all);
-    let locked = range::lock(project, sequence, &order.numbers, cancel, &measuring);
+    let locked = range::lock(&order.project, &order.shots, cancel, &measuring);
     let locked = locked.map_err(stopped)?;
     let mut assumed = order.assumed;
     assumed.extend(locked.assumed);
     let order = range::Order {
         project: locked.project,
-        sequence: Sequence::clone(&order.sequence),
-        numbers: order.numbers,
+        shots: order.shots,
         output: order.output,
         format: order.format,
         assumed,

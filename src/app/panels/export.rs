@@ -1,6 +1,7 @@
 //! Writing the picture into a file: what to ask for, how far it is, and what became of it.
 
-mod range;
+mod believed;
+mod many;
 mod size;
 mod target;
 
@@ -8,12 +9,13 @@ use egui::{
     Button, Context, DragValue, Grid, Label, ProgressBar, RichText, ScrollArea, TextEdit, Ui,
 };
 
+use self::many::ManyRows;
 use self::size::Size;
 use self::target::Target;
 use super::{Command, centred, short};
 use crate::app::exporter::{Exactness, Exporter, Outcome, Progress, Wish};
-use crate::app::theme::{ERROR, IDLE, WARNING};
 use crate::app::timeline::Timeline;
+use crate::app::words::name_of;
 use crate::app::{App, Document};
 use crate::export::Format;
 use crate::render::{MAX_SIDE, Settings};
@@ -30,6 +32,7 @@ pub(in crate::app) struct ExportPanel {
     target: Target,
     size: Size,
     exactness: Exactness,
+    many: ManyRows,
 }
 
 impl ExportPanel {
@@ -92,7 +95,7 @@ impl ExportPanel {
             self.quality(ui);
             ui.end_row();
         });
-        ui.label(RichText::new(self.target.whereabouts()).small().color(IDLE));
+        ui.label(RichText::new(self.target.whereabouts()).small().weak());
         if let Some(words) = self.target.problem() {
             warn(ui, words);
         }
@@ -119,7 +122,10 @@ impl ExportPanel {
             }),
             _ => None,
         };
-        self.buttons(ui, (exporter, timeline), wish, commands);
+        if exporter.running().is_none() {
+            self.many.show(ui, timeline, wish.as_ref(), commands);
+        }
+        self.buttons(ui, exporter, wish, commands);
         if let Some(outcome) = exporter.last() {
             tell(ui, Label::new, outcome);
         }
@@ -212,15 +218,15 @@ impl ExportPanel {
     fn buttons(
         &mut self,
         ui: &mut Ui,
-        (exporter, timeline): (&Exporter, &Timeline),
+        exporter: &Exporter,
         wish: Option<Wish>,
         commands: &mut Vec<Command>,
     ) {
         let runs = exporter.running().is_some();
         let existing = self.target.existing(runs);
         ui.horizontal(|ui| {
-            range::buttons(ui, exporter, timeline, wish.as_ref(), commands);
             if runs {
+                many::pause(ui, exporter, commands);
                 if ui.button("Cancel").clicked() {
                     commands.push(Command::CancelExport);
                 }
@@ -240,7 +246,10 @@ impl ExportPanel {
             let told = runs || exporter.last().is_some();
             if let (Some(name), false) = (existing, told) {
                 ui.add(
-                    Label::new(RichText::new(format!("{name} exists")).color(WARNING)).truncate(),
+                    Label::new(
+                        RichText::new(format!("{name} exists")).color(ui.visuals().warn_fg_color),
+                    )
+                    .truncate(),
                 );
             }
         });
@@ -253,7 +262,7 @@ pub(in crate::app) fn line(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) 
         return;
     }
     if let Some((path, progress)) = app.exporter.running() {
-        let words = format!("{} {}", target::name_of(path), words_of(progress));
+        let words = format!("{} {}", name_of(path), words_of(progress));
         if ui.small_button("Cancel export").clicked() {
             commands.push(Command::CancelExport);
         }
@@ -268,7 +277,7 @@ pub(in crate::app) fn line(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) 
 }
 
 fn warn(ui: &mut Ui, words: &str) {
-    ui.label(RichText::new(words).color(WARNING));
+    ui.label(RichText::new(words).color(ui.visuals().warn_fg_color));
 }
 
 /// The numbers that a picture is rendered with, in words.
@@ -314,45 +323,15 @@ fn words_of(progress: Progress) -> String {
 
 /// What became of an export, with everything else that is to be said of it under the pointer.
 fn tell(ui: &mut Ui, label: impl FnOnce(RichText) -> Label, outcome: &Outcome) {
-    match outcome {
-        Outcome::Done {
-            path,
-            size: [width, height],
-            seconds,
-            flaws,
-        } => {
-            let name = target::name_of(path);
-            let words = format!("{name} written, {width} × {height}, {seconds:.1} s");
-            let written = ui.add(label(RichText::new(words)));
-            let mut more = path.display().to_string();
-            for flaw in flaws.iter() {
-                more = format!("{more}\n• {flaw}");
-            }
-            written.on_hover_text(more);
-        }
-        Outcome::Range {
-            counts,
-            seconds,
-            flaws,
-        } => {
-            let more: Vec<&str> = flaws.iter().collect();
-            range::tell(ui, label, counts, *seconds, &more.join("\n• "));
-        }
-        Outcome::Failed(words) => {
-            ui.add(label(RichText::new(words).color(ERROR)))
-                .on_hover_text(words);
-        }
-        Outcome::Stopped => {
-            ui.add(label(RichText::new(
-                "Export stopped; frames that are written stay",
-            )));
-        }
-        Outcome::Cancelled => {
-            ui.add(label(RichText::new(
-                "Export cancelled; nothing was written",
-            )));
-        }
+    let mut text = RichText::new(outcome.in_words());
+    if !outcome.went_well() {
+        let visuals = ui.visuals();
+        text = text.color(match outcome {
+            Outcome::Failed(_) => visuals.error_fg_color,
+            _ => visuals.warn_fg_color,
+        });
     }
+    ui.add(label(text)).on_hover_text(outcome.in_full());
 }
 
 #[cfg(test)]

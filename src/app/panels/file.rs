@@ -2,16 +2,17 @@
 
 use std::path::PathBuf;
 
-use egui::{Key, Label, RichText, TextEdit, Ui};
+use egui::{Button, Image, Key, Label, RichText, TextEdit, Ui, Vec2, vec2};
 
 use super::knob::button;
-use super::{Command, section, short};
+use super::{Beside, Command, section, short};
 use crate::app::Document;
 use crate::app::files::paths_of;
-use crate::app::recent::Recent;
-use crate::app::theme::WARNING;
 use crate::scene::flame::world_bounds;
 use crate::volume::BuiltIn;
+
+/// Room for the picture of what was opened before, points; its shape is kept.
+const THUMBNAIL: Vec2 = vec2(72.0, 41.0);
 
 /// What the section remembers between frames.
 #[derive(Debug, Default)]
@@ -27,7 +28,7 @@ impl FilePanel {
         &mut self,
         ui: &mut Ui,
         document: &Document,
-        recent: &Recent,
+        beside: &Beside<'_>,
         commands: &mut Vec<Command>,
     ) {
         ui.add(Label::new(RichText::new(document.title()).strong().size(16.0)).truncate());
@@ -40,7 +41,7 @@ impl FilePanel {
             if open.clicked() {
                 commands.push(Command::Ask);
             }
-            open_again(ui, recent, commands);
+            open_again(ui, beside, commands);
             let export = ui
                 .button("Export…")
                 .on_hover_text("Write the picture into a file, at any size (Ctrl+E).");
@@ -76,7 +77,7 @@ impl FilePanel {
         });
         if self.no_dialog {
             let words = "This desktop offers no file dialog: type or paste a path above, or drop files here.";
-            ui.label(RichText::new(words).color(WARNING));
+            ui.label(RichText::new(words).color(ui.visuals().warn_fg_color));
         }
     }
 }
@@ -101,6 +102,7 @@ fn settings(ui: &mut Ui, commands: &mut Vec<Command>) {
                 "Save the scene under another name (Ctrl+Shift+S).",
                 Command::SaveAs,
             ),
+            ("Dark or light", "Put the other look on the window: neutral greys both (F2).", Command::ToggleTheme),
             ("Keys and hands", "What keys and hands do (F1).", Command::ToggleHelp),
         ] {
             if ui.button(label).on_hover_text(tip).clicked() {
@@ -113,7 +115,8 @@ fn settings(ui: &mut Ui, commands: &mut Vec<Command>) {
 }
 
 /// What was open before, and the flames that need no file.
-fn open_again(ui: &mut Ui, recent: &Recent, commands: &mut Vec<Command>) {
+fn open_again(ui: &mut Ui, beside: &Beside<'_>, commands: &mut Vec<Command>) {
+    let recent = beside.recent;
     let menu = ui.menu_button("Recent", |ui| {
         for files in recent.iter() {
             let name = |path: &PathBuf| {
@@ -125,8 +128,15 @@ fn open_again(ui: &mut Ui, recent: &Recent, commands: &mut Vec<Command>) {
                 .iter()
                 .map(|path| path.display().to_string())
                 .collect();
-            let entry = ui.button(names.join(" + "));
-            if entry.on_hover_text(paths.join("\n")).clicked() {
+            let names = names.join(" + ");
+            let entry = match beside.thumbnails.of(files) {
+                Some(picture) => {
+                    let image = Image::new(picture).fit_to_exact_size(THUMBNAIL);
+                    Button::image_and_text(image, names)
+                }
+                None => Button::new(names),
+            };
+            if ui.add(entry).on_hover_text(paths.join("\n")).clicked() {
                 commands.push(Command::Open(files.to_vec()));
             }
         }
@@ -190,7 +200,7 @@ pub(super) fn flaws(ui: &mut Ui, flaws: &[String]) {
     if !flaws.is_empty() {
         section(ui, "Assumed or not faithful", true, |ui| {
             for flaw in flaws {
-                ui.label(RichText::new(format!("• {flaw}")).color(WARNING));
+                ui.label(RichText::new(format!("• {flaw}")).color(ui.visuals().warn_fg_color));
             }
         });
     }

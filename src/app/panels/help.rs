@@ -3,7 +3,6 @@
 use egui::{Context, Grid, RichText, ScrollArea, Ui, vec2};
 
 use super::centred;
-use crate::app::theme::IDLE;
 
 /// Height of the window's title and margins in points, with some to spare.
 const BAR: f32 = 80.0;
@@ -57,6 +56,7 @@ const HANDS: &[Section] = &[
             ("double click, 0", "fit it"),
             ("S", "spectrum under the pointer; a click keeps the pixel"),
             ("H", "histogram, and what is clipped"),
+            ("J", "mark what is clipped in the picture"),
             ("V", "a plane through the volume, and its profile"),
             ("C", "what accuracy costs; a click on a dot adopts it"),
             (
@@ -80,6 +80,7 @@ const HANDS: &[Section] = &[
         &[
             ("N", "hide and show the panel"),
             ("Esc", "close what was opened last, or stop loading"),
+            ("F2", "dark and light window"),
             ("F1", "this page"),
         ],
     ),
@@ -114,7 +115,7 @@ fn page(ui: &mut Ui, number: usize, sections: &[Section]) {
             ui.label(RichText::new(*about).strong());
             ui.end_row();
             for (hand, does) in *hands {
-                ui.label(RichText::new(*hand).color(IDLE));
+                ui.label(RichText::new(*hand).weak());
                 ui.label(*does);
                 ui.end_row();
             }

@@ -8,7 +8,6 @@ use egui::{
 };
 
 use super::unit::Unit;
-use crate::app::theme::{IDLE, WARNING};
 
 /// Width of the names in front of the controls, points.
 const NAME_WIDTH: f32 = 108.0;
@@ -147,7 +146,11 @@ impl Knob<'_> {
         let complaint: Option<(String, f64)> = ui.data(|data| data.get_temp(self.id()));
         match complaint {
             Some((words, at)) if at == value => {
-                ui.label(RichText::new(words).small().color(WARNING));
+                ui.label(
+                    RichText::new(words)
+                        .small()
+                        .color(ui.visuals().warn_fg_color),
+                );
             }
             Some(_) => ui.data_mut(|data| data.remove::<(String, f64)>(self.id())),
             None => {}
@@ -213,7 +216,7 @@ impl<T: PartialEq + Clone> Choice<'_, T> {
 
 /// Small words under a control.
 pub(super) fn note(ui: &mut Ui, words: &str) {
-    ui.label(RichText::new(words).small().color(IDLE));
+    ui.label(RichText::new(words).small().weak());
 }
 
 /// A control's name in a column of its own.

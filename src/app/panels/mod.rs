@@ -37,6 +37,7 @@ use super::maps::Map;
 use super::recent::Recent;
 use super::region::RegionFrame;
 use super::snapshots::{Snapshots, Way};
+use super::thumbnails::Thumbnails;
 use super::timeline::Step;
 use crate::project::{Control, Job, Mend, Preset, why_idle};
 use crate::render::Facts;
@@ -76,6 +77,8 @@ pub(super) enum Command {
     ToggleSpectrum,
     /// Show the histogram, or hide it.
     ToggleLevels,
+    /// Mark what is clipped in the picture, or no more.
+    ToggleClipped,
     /// Show a cut through the volume, or hide it.
     ToggleVolume,
     /// Show what accuracy costs, or hide it.
@@ -112,8 +115,8 @@ pub(super) enum Command {
     OpenExport,
     /// Export this.
     Export(Wish),
-    /// Export all frames that play, named after this.
-    ExportRange(Wish),
+    /// Export all frames that play, or so many views from all around, named after this.
+    ExportMany(Wish, Many),
     /// Pause the range that is exported, or go on.
     PauseExport(bool),
     /// Stop exporting.
@@ -134,8 +137,19 @@ pub(super) enum Command {
     PasteSettings,
     /// Show what keys and hands do, or hide it.
     ToggleHelp,
+    /// Put the other look on.
+    ToggleTheme,
     /// Take away what is said of the last export.
     ForgetExport,
+}
+
+/// Pictures that are exported together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Many {
+    /// The frames that play.
+    Frames,
+    /// So many views once round the fire.
+    Turntable(u32),
 }
 
 /// Width of the panel in points, scroll bar included.
@@ -170,6 +184,7 @@ pub(super) struct Beside<'a> {
     pub(super) region: &'a RegionFrame,
     pub(super) snapshots: &'a Snapshots,
     pub(super) recent: &'a Recent,
+    pub(super) thumbnails: &'a Thumbnails,
 }
 
 /// What is known of the picture that the controls change.
@@ -217,7 +232,7 @@ impl Panels {
                     Frame::new().inner_margin(MARGIN).show(ui, |ui| {
                         // Whatever a row says, the panel is as wide as it is.
                         ui.set_max_width(width - 2.0 * f32::from(MARGIN));
-                        self.file.show(ui, document, beside.recent, commands);
+                        self.file.show(ui, document, beside, commands);
                         let recognised = document.recognised().cloned();
                         let automatic_half = document.automatic_half_saturation_cd_m2();
                         let decisions = document.decisions.clone();

@@ -10,7 +10,6 @@ use super::legend::{self, Legend};
 use crate::app::App;
 use crate::app::closing::{Close, Closing};
 use crate::app::opening::is_picture;
-use crate::app::theme::ERROR;
 use crate::project::Darkness;
 
 /// Height of a line of the drop target in points.
@@ -156,9 +155,9 @@ fn notes(ui: &mut Ui, app: &App, canvas: Rect, commands: &mut Vec<Command>) {
             ui.set_max_width(NOTE_WIDTH.min(canvas.width() - 24.0));
             for note in notes {
                 Frame::popup(ui.style())
-                    .stroke(Stroke::new(1.0, ERROR))
+                    .stroke(Stroke::new(1.0, ui.visuals().error_fg_color))
                     .show(ui, |ui| {
-                        ui.label(RichText::new(note.words).color(Color32::from_gray(225)));
+                        ui.label(RichText::new(note.words).strong());
                         ui.horizontal_wrapped(|ui| {
                             for (label, command) in note.remedies {
                                 if ui.button(label).clicked() {

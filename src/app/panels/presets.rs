@@ -12,7 +12,6 @@ use egui::{
 use super::Command;
 use super::knob::{button, name};
 use crate::app::scene_file::{ENDING, is_scene};
-use crate::app::theme::IDLE;
 use crate::project::{PRESETS, Preset, THUMBNAIL};
 
 /// Pictures beside each other.
@@ -128,7 +127,7 @@ impl PresetsMenu {
             }
         });
         let whereabouts = format!("Your presets lie in {}", folder.display());
-        ui.label(RichText::new(whereabouts).small().color(IDLE));
+        ui.label(RichText::new(whereabouts).small().weak());
     }
 }
 

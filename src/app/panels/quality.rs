@@ -9,7 +9,6 @@ use super::{Beside, Command, Known, section, short, unit};
 use crate::app::accuracy::Told;
 use crate::app::maps::Map;
 use crate::app::region::RegionFrame;
-use crate::app::theme::IDLE;
 use crate::project::{Project, Quality, RenderSettings, ranges};
 use crate::render::{Effects, Switch};
 use crate::scene::{Interpolation, WavelengthSet};
@@ -47,7 +46,7 @@ pub(super) fn show(
 /// Which part of the picture is sharpened.
 fn region(ui: &mut Ui, region: &RegionFrame, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("sharpen").color(IDLE));
+        ui.label(RichText::new("sharpen").weak());
         let is_whole = !region.is_set() && !region.is_choosing();
         let whole = ui.selectable_label(is_whole, "whole picture");
         let tip = "Key: Ctrl+Alt+B";
@@ -71,7 +70,7 @@ fn region(ui: &mut Ui, region: &RegionFrame, commands: &mut Vec<Command>) {
 /// What may be laid over the picture.
 fn maps(ui: &mut Ui, shown: Option<Map>, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("map of").color(IDLE));
+        ui.label(RichText::new("map of").weak());
         for (map, words, tip) in [
             (
                 Map::Cost,
@@ -206,7 +205,7 @@ fn by_cause(
 ) {
     let (error, numbers) = (told.here.error, told.here.numbers);
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("error from").color(IDLE));
+        ui.label(RichText::new("error from").weak());
         let cause = |ui: &mut Ui, words: String, tip: &str, enabled: bool| {
             let button = ui.add_enabled(enabled, Button::new(words).small());
             button.on_hover_text(tip).clicked()

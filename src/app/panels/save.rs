@@ -10,7 +10,6 @@ use super::{Command, centred};
 use crate::app::Document;
 use crate::app::files::{Asked, paths_of};
 use crate::app::scene_file::{ENDING, is_scene};
-use crate::app::theme::{IDLE, WARNING};
 
 /// Width of the window's contents in points.
 const WIDTH: f32 = 440.0;
@@ -94,10 +93,10 @@ impl SavePanel {
                 });
                 let words = "A scene file holds all that is set, and names the volume; it is text. Open it here or give it to \
                              the command line with --scene.";
-                ui.add(Label::new(RichText::new(words).small().color(IDLE)).wrap());
+                ui.add(Label::new(RichText::new(words).small().weak()).wrap());
                 if self.dialog.has_none() {
                     let words = "This desktop offers no file dialog: type a path.";
-                    ui.label(RichText::new(words).color(WARNING));
+                    ui.label(RichText::new(words).color(ui.visuals().warn_fg_color));
                 }
                 let path = self.path();
                 let exists = path.as_ref().is_some_and(|path| self.exists(path));
@@ -113,7 +112,7 @@ impl SavePanel {
                         commands.push(Command::CloseSave);
                     }
                     if exists && !is_own {
-                        ui.label(RichText::new("There is such a file already.").color(WARNING));
+                        ui.label(RichText::new("There is such a file already.").color(ui.visuals().warn_fg_color));
                     }
                 });
                 if let (true, Some(path)) = (saves && !is_writing, path) {

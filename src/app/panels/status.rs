@@ -12,7 +12,6 @@ use super::quality::short_de;
 use crate::app::App;
 use crate::app::accuracy::Told;
 use crate::app::files::Loading;
-use crate::app::theme::WARNING;
 use crate::engine::Engine;
 use crate::engine::picture::Progress;
 use crate::render::Pass;
@@ -234,7 +233,7 @@ fn flaw_words(ui: &mut Ui, flaws: &[&str]) {
         [first, ..] => format!("{} flaws: {first}", flaws.len()),
     };
     let lines: Vec<String> = flaws.iter().map(|flaw| format!("• {flaw}")).collect();
-    ui.add(Label::new(RichText::new(words).color(WARNING)).truncate())
+    ui.add(Label::new(RichText::new(words).color(ui.visuals().warn_fg_color)).truncate())
         .on_hover_text(lines.join("\n"));
 }
 

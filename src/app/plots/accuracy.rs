@@ -9,7 +9,6 @@ use egui_plot::{
 use super::chart::still_plot;
 use crate::app::accuracy::{Accuracy, Told};
 use crate::app::panels::{Command, short};
-use crate::app::theme::IDLE;
 use crate::engine::Engine;
 use crate::project::Job;
 use crate::study::{Choice, Family, Numbers, Point, Status};
@@ -65,15 +64,16 @@ pub(super) fn show(
         .y_grid_spacer(|seen| decades(seen.bounds))
         .x_axis_formatter(|mark, _| format!("{} s", short(10_f64.powf(mark.value))))
         .y_axis_formatter(|mark, _| short(10_f64.powf(mark.value)))
-        .y_axis_label(RichText::new("error, ΔE (95 %)").small().color(IDLE))
+        .y_axis_label(RichText::new("error, ΔE (95 %)").small().weak())
         .y_axis_min_width(58.0)
         .label_formatter(|_| None);
     let strong = ui.visuals().strong_text_color();
+    let (weak, is_dark) = (ui.visuals().weak_text_color(), ui.visuals().dark_mode);
     let shown = plot.show(ui, |plot| {
         plot.set_plot_bounds(PlotBounds::from_min_max(ends[0], ends[1]));
         plot.hline(
             HLine::new("just seen", 0.0)
-                .color(IDLE)
+                .color(weak)
                 .style(LineStyle::dashed_loose()),
         );
         let line = Line::new("expected", PlotPoints::from(front));
@@ -81,7 +81,7 @@ pub(super) fn show(
         for dot in dots.iter().filter(|dot| dot.family.is_some()) {
             let mark = Points::new("", PlotPoints::from(vec![dot.at]));
             let mark = mark
-                .color(colour(dot.family))
+                .color(dot.family.map_or(weak, |it| colour(it, is_dark)))
                 .radius(4.0)
                 .shape(MarkerShape::Circle);
             plot.points(mark.filled(dot.against.is_empty()));
@@ -168,27 +168,30 @@ fn progress_words(known: usize, of: usize) -> String {
 /// What each colour is.
 fn legend(ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
+        let is_dark = ui.visuals().dark_mode;
         for family in Family::ALL {
             let (rect, _) = ui.allocate_exact_size(Vec2::splat(10.0), Sense::hover());
             ui.painter()
-                .circle_filled(rect.center(), 4.0, colour(Some(family)));
+                .circle_filled(rect.center(), 4.0, colour(family, is_dark));
             ui.label(RichText::new(family.title()).small());
         }
     });
 }
 
-/// Okabe and Ito's colours (2008), lightened where the ground is dark.
-fn colour(family: Option<Family>) -> Color32 {
-    match family {
-        None => IDLE,
-        Some(Family::Chosen) => Color32::from_rgb(240, 228, 66),
-        Some(Family::Step) => Color32::from_rgb(213, 94, 0),
-        Some(Family::Wavelengths) => Color32::from_rgb(40, 140, 210),
-        Some(Family::Samples) => Color32::from_rgb(0, 158, 115),
-        Some(Family::Interpolation) => Color32::from_rgb(204, 121, 167),
-        Some(Family::Effects) => Color32::from_rgb(230, 159, 0),
-        Some(Family::Baked) => Color32::from_rgb(120, 200, 240),
-    }
+/// Okabe and Ito's colours (2008), lightened where the ground is dark, and two of them darkened where it is light.
+fn colour(family: Family, is_dark: bool) -> Color32 {
+    let [red, green, blue] = match family {
+        Family::Chosen if is_dark => [240, 228, 66],
+        Family::Chosen => [130, 120, 0],
+        Family::Step => [213, 94, 0],
+        Family::Wavelengths => [40, 140, 210],
+        Family::Samples => [0, 158, 115],
+        Family::Interpolation => [204, 121, 167],
+        Family::Effects => [230, 159, 0],
+        Family::Baked if is_dark => [120, 200, 240],
+        Family::Baked => [0, 60, 140],
+    };
+    Color32::from_rgb(red, green, blue)
 }
 
 /// The choices that no other is both quicker and nearer than, quickest first.

@@ -5,13 +5,15 @@ use egui_plot::{Line, PlotPoints};
 
 use super::chart::still_plot;
 use crate::app::panels::short;
-use crate::app::theme::IDLE;
 use crate::render::along::{Along, DEPTH_NM, Place};
 
 /// Height of each chart in points.
 const HEIGHT: f32 = 96.0;
-/// Colour of the temperature's line: that of hot soot.
-const KELVIN: Color32 = Color32::from_rgb(0xff, 0xa0, 0x40);
+/// Colour of the temperature's line, that of hot soot: where the chart is dark, and where it is light.
+const KELVIN: [Color32; 2] = [
+    Color32::from_rgb(0xff, 0xa0, 0x40),
+    Color32::from_rgb(0xb8, 0x5a, 0x00),
+];
 
 /// Draws both charts, and what they come to in words above them.
 pub(super) fn show(ui: &mut Ui, along: &Along) {
@@ -30,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, along: &Along) {
         (
             "Temperature along the ray against distance",
             "K",
-            KELVIN,
+            KELVIN[usize::from(!ui.visuals().dark_mode)],
             (|place| place.temperature_k) as fn(&Place) -> f64,
         ),
         (
@@ -50,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, along: &Along) {
             .include_y(0.0)
             .set_margin_fraction(vec2(0.0, 0.05))
             .x_axis_formatter(|mark, _| format!("{} m", short(mark.value)))
-            .y_axis_label(RichText::new(axis).small().color(IDLE))
+            .y_axis_label(RichText::new(axis).small().weak())
             .y_axis_formatter(|mark, _| short(mark.value))
             .y_axis_min_width(58.0)
             .label_formatter(|_| None);

@@ -1,12 +1,13 @@
 //! What all charts of the window have in common: wavelengths along the bottom, a unit up the side, and nothing that
 //! moves by accident.
 
-use egui::{AsIdSalt, Color32, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui::{
+    AsIdSalt, Color32, RichText, Role, Sense, Shape, Stroke, Ui, Visuals, WidgetInfo, vec2,
+};
 use egui_plot::{Bar, BarChart, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoints};
 use glam::DVec3;
 
 use crate::app::panels::short;
-use crate::app::theme::IDLE;
 use crate::colour::cie;
 use crate::colour::xyz::{rgb_from_xyz, srgb_encode};
 
@@ -43,8 +44,12 @@ pub(super) enum Axis {
 }
 
 impl Curve<'_> {
-    fn colour(&self, strong: Color32) -> Color32 {
-        if self.faint { IDLE } else { strong }
+    fn colour(&self, visuals: &Visuals) -> Color32 {
+        if self.faint {
+            visuals.weak_text_color()
+        } else {
+            visuals.strong_text_color()
+        }
     }
 }
 
@@ -86,7 +91,7 @@ impl Chart<'_> {
             .iter()
             .map(|curve| (curve.name.to_owned(), curve.points.clone()))
             .collect();
-        let words = RichText::new(self.axis).small().color(IDLE);
+        let words = RichText::new(self.axis).small().weak();
         // What an empty chart shows must not stay when there is a curve.
         let mut plot = still_plot((self.label, is_empty), self.height)
             .default_x_bounds(VISIBLE_NM[0], VISIBLE_NM[1])
@@ -116,13 +121,13 @@ impl Chart<'_> {
         } else if self.division == Axis::FromZero {
             plot = plot.include_y(0.0);
         }
-        let strong = ui.visuals().strong_text_color();
+        let visuals = ui.visuals().clone();
         let curves = self.curves;
         let bottom = bottom_of(&curves);
         let in_colour = self.in_colour;
         let shown = plot.show(ui, |plot| {
             for curve in curves {
-                let colour = curve.colour(strong);
+                let colour = curve.colour(&visuals);
                 let points: Vec<[f64; 2]> = if logarithmic {
                     let is_lit = curve.points.iter().any(|[_, y]| *y > 0.0);
                     let points = curve.points.iter().filter(|_| is_lit);
@@ -166,11 +171,10 @@ fn bottom_of(curves: &[Curve<'_>]) -> f64 {
 /// The curves' names, each behind a piece of its line. Above the chart, where it hides none of them.
 fn legend(ui: &mut Ui, curves: &[Curve<'_>]) {
     ui.horizontal(|ui| {
-        let strong = ui.visuals().strong_text_color();
         for curve in curves {
             let (rect, _) = ui.allocate_exact_size(vec2(26.0, 10.0), Sense::hover());
             let line = [rect.left_center(), rect.right_center()];
-            let stroke = Stroke::new(1.5, curve.colour(strong));
+            let stroke = Stroke::new(1.5, curve.colour(ui.visuals()));
             if curve.style == LineStyle::Solid {
                 ui.painter().line_segment(line, stroke);
             } else {

@@ -69,9 +69,20 @@ pub(super) struct Plots {
     pixel: PixelPlot,
     optics: OpticsPlots,
     slice: SlicePlot,
+    marks_clipped: bool,
 }
 
 impl Plots {
+    /// Whether what is clipped is marked in the picture. In false colour nothing is: it marks it by a colour of its own.
+    pub(super) fn marks_clipped(&self, view: &View) -> bool {
+        self.marks_clipped && !view.false_colour
+    }
+
+    /// Marks what is clipped in the picture, or no more.
+    pub(super) fn toggle_marks(&mut self) {
+        self.marks_clipped = !self.marks_clipped;
+    }
+
     /// Whether the spectra are on show.
     pub(super) fn is_open(&self) -> bool {
         self.is_open && matches!(self.tab, Tab::Pixel | Tab::FuelAndAir)
@@ -155,7 +166,9 @@ impl Plots {
                         self.tabs(ui);
                         match self.tab {
                             Tab::Pixel => self.pixel.show(ui, engine, view, place),
-                            Tab::Levels => levels::show(ui, shown.film, view),
+                            Tab::Levels => {
+                                levels::show(ui, shown.film, view, &mut self.marks_clipped)
+                            }
                             Tab::FuelAndAir => self.optics.show(ui, job),
                             Tab::Volume => self.slice.show(ui, engine),
                             Tab::Accuracy => {

@@ -5,7 +5,6 @@ use egui_plot::LineStyle;
 
 use super::chart::{Axis, Chart, Curve, VISIBLE_NM};
 use crate::app::panels::short;
-use crate::app::theme::{IDLE, WARNING};
 use crate::project::Job;
 use crate::scene::curves::{Bands, Curves, Row, peak_of};
 use crate::scene::{FlameParams, Local};
@@ -47,7 +46,7 @@ impl OpticsPlots {
         let rows = match self.rows(&job.flame, place) {
             Ok(rows) => rows.clone(),
             Err(words) => {
-                ui.label(RichText::new(words.as_str()).color(WARNING));
+                ui.label(RichText::new(words.as_str()).color(ui.visuals().warn_fg_color));
                 return;
             }
         };
@@ -138,7 +137,7 @@ impl OpticsPlots {
                     self.chosen = None;
                 }
             } else {
-                ui.label(RichText::new("the hottest and densest of this fire").color(IDLE));
+                ui.label(RichText::new("the hottest and densest of this fire").weak());
             }
         });
         place

@@ -9,7 +9,6 @@ use super::along;
 use super::chart::{Axis, Chart, Curve};
 use crate::app::canvas::PicturePlace;
 use crate::app::panels::short;
-use crate::app::theme::IDLE;
 use crate::colour::display::{BakedView, View};
 use crate::engine::{Engine, Generation, Packed};
 use crate::render::along::Along;
@@ -190,7 +189,7 @@ fn heading(ui: &mut Ui, reading: Option<&Reading>, kept: bool) -> bool {
             let tip = "Let the pixel go that a click has kept.";
             button.on_hover_text(tip).clicked()
         } else {
-            ui.label(RichText::new("a click on the picture keeps it").color(IDLE));
+            ui.label(RichText::new("a click on the picture keeps it").weak());
             false
         }
     })

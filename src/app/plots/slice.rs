@@ -8,7 +8,6 @@ use egui_plot::{Line, PlotPoints, VLine};
 
 use super::chart::still_plot;
 use crate::app::panels::short;
-use crate::app::theme::IDLE;
 use crate::colour::false_colour::{BLACK, STOPS};
 use crate::engine::{Engine, Generation};
 use crate::scene::slice::{Cell, Slice, axes_of, profile};
@@ -100,7 +99,7 @@ impl SlicePlot {
                 )
             },
         );
-        ui.label(RichText::new(words).small().color(IDLE));
+        ui.label(RichText::new(words).small().weak());
         self.scale(ui, shown);
         self.profile(ui, shown);
     }
@@ -215,18 +214,19 @@ impl SlicePlot {
             .include_y(0.0)
             .set_margin_fraction(vec2(0.0, 0.05))
             .x_axis_formatter(move |mark, _| format!("{name} {} m", short(mark.value)))
-            .y_axis_label(RichText::new(axis).small().color(IDLE))
+            .y_axis_label(RichText::new(axis).small().weak())
             .y_axis_formatter(|mark, _| short(mark.value))
             .y_axis_min_width(58.0)
             .label_formatter(|_| None);
         let strong = ui.visuals().strong_text_color();
+        let weak = ui.visuals().weak_text_color();
         let drawn = plot.show(ui, |plot| {
             plot.line(
                 Line::new(label, PlotPoints::from(points))
                     .color(strong)
                     .width(1.5),
             );
-            plot.vline(VLine::new("plane", shown.slice.at_m).color(IDLE));
+            plot.vline(VLine::new("plane", shown.slice.at_m).color(weak));
         });
         drawn
             .response

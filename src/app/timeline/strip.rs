@@ -7,7 +7,6 @@ use egui::{
 use super::{FPS_RANGE, Open, Step};
 use crate::app::App;
 use crate::app::panels::Command;
-use crate::app::theme::{ERROR, IDLE, WARNING};
 
 /// Width of a mark on the rail, points.
 const MARK: f32 = 3.0;
@@ -74,7 +73,7 @@ pub(in crate::app) fn strip(ui: &mut Ui, app: &mut App, commands: &mut Vec<Comma
                         1 => format!("frame {number} is bad"),
                         count => format!("{count} frames are bad"),
                     };
-                    ui.label(RichText::new(words).color(ERROR)).on_hover_text(reason);
+                    ui.label(RichText::new(words).color(ui.visuals().error_fg_color)).on_hover_text(reason);
                 }
             });
         });
@@ -94,18 +93,24 @@ fn scrub(ui: &mut Ui, open: &Open, ask: &mut impl FnMut(Step)) {
     if slider.changed() && number != shown {
         ask(Step::To(number));
     }
+    let visuals = ui.visuals();
+    let (weak, error, warning) = (
+        visuals.weak_text_color(),
+        visuals.error_fg_color,
+        visuals.warn_fg_color,
+    );
     let gaps = open.sequence.numbers().zip(open.sequence.numbers().skip(1));
     for (before, after) in gaps
         .filter(|(before, after)| after - before > 1)
         .take(MOST_GAPS)
     {
-        mark(ui, &slider, [low, high], [before + 1, after - 1], IDLE);
+        mark(ui, &slider, [low, high], [before + 1, after - 1], weak);
     }
     for &number in open.bad.keys() {
-        mark(ui, &slider, [low, high], [number; 2], ERROR);
+        mark(ui, &slider, [low, high], [number; 2], error);
     }
     for end in open.range.ends() {
-        mark(ui, &slider, [low, high], [end; 2], WARNING);
+        mark(ui, &slider, [low, high], [end; 2], warning);
     }
 }
 

@@ -1,17 +1,15 @@
 //! Where an export goes: a path that is typed or chosen, whose ending is the format.
 
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::path::PathBuf;
 
 use egui::Context;
 use rfd::FileDialog;
 
+use super::believed::Believed;
 use crate::app::files::{Asked, paths_of};
+use crate::app::words::name_of;
 use crate::export::Format;
 use crate::export::png::Bits;
-
-/// How long it is believed that a file exists or does not.
-const BELIEVED: Duration = Duration::from_secs(1);
 
 /// The path of an export.
 #[derive(Debug, Default)]
@@ -23,17 +21,8 @@ pub(super) struct Target {
     /// Bits of a PNG: its ending does not tell them.
     bits: Bits,
     dialog: Asked,
-    looked_up: Option<LookedUp>,
-}
-
-/// Whether there is a file, as it was found a moment ago.
-#[derive(Debug)]
-struct LookedUp {
-    path: PathBuf,
-    exists: bool,
-    at: Instant,
-    /// While an export ran: it may have made the file.
-    running: bool,
+    /// Whether there is a file, and whether an export ran then, which may have made it.
+    looked_up: Believed<(PathBuf, bool), bool>,
 }
 
 impl Target {
@@ -95,23 +84,12 @@ impl Target {
         format!("The file to write: {}", whole.display())
     }
 
-    /// The file's name, if it exists. Asked at most once a second while nothing changes: a disk may be slow.
+    /// The file's name, if it exists.
     pub(super) fn existing(&mut self, running: bool) -> Option<String> {
         let path = self.path()?;
-        let known = self.looked_up.as_ref().filter(|known| {
-            known.path == path && known.running == running && known.at.elapsed() < BELIEVED
-        });
-        let exists = known.map_or_else(|| path.exists(), |known| known.exists);
-        let name = exists.then(|| name_of(&path));
-        if known.is_none() {
-            self.looked_up = Some(LookedUp {
-                path,
-                exists,
-                at: Instant::now(),
-                running,
-            });
-        }
-        name
+        let name = name_of(&path);
+        let exists = |(path, _): &(PathBuf, bool)| path.exists();
+        self.looked_up.of((path, running), exists).then_some(name)
     }
 
     /// Asks with the desktop's dialog, on a thread of its own.
@@ -133,12 +111,6 @@ impl Target {
             self.text = path.display().to_string();
         }
     }
-}
-
-/// A path without its folders, for a person.
-pub(super) fn name_of(path: &Path) -> String {
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    name.to_string_lossy().into_owned()
 }
 
 #[cfg(test)]

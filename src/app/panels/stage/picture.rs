@@ -7,7 +7,6 @@ use rfd::FileDialog;
 
 use crate::app::files::{Asked, paths_of};
 use crate::app::panels::knob::name;
-use crate::app::theme::WARNING;
 
 /// The field, with what is typed but not yet entered.
 #[derive(Debug, Default)]
@@ -53,7 +52,11 @@ impl PicturePath {
         });
         if self.dialog.has_none() {
             let words = "This desktop offers no file dialog: type a path.";
-            ui.label(RichText::new(words).small().color(WARNING));
+            ui.label(
+                RichText::new(words)
+                    .small()
+                    .color(ui.visuals().warn_fg_color),
+            );
         }
     }
 }
