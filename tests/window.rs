@@ -8,12 +8,14 @@ mod export;
 mod fire;
 mod opening;
 mod plots;
+mod reach;
 mod real;
 mod scene_file;
 mod sequence;
 mod session;
 mod shader;
 mod stage;
+mod tasks;
 mod view;
 
 use std::io::Write;

@@ -5,13 +5,49 @@ use std::time::Duration;
 use super::canvas::{Beside, Over};
 use super::closing::{Close, Closing};
 use super::snapshots::Way;
-use super::{App, hands, panels, plots, theme, timeline};
+use super::{App, canvas, hands, panels, plots, theme, timeline};
+use crate::colour::display::View;
 
 /// While a file is read, how far it is is drawn this often.
 const LOADING_FRAME: Duration = Duration::from_millis(100);
 /// While a picture is worked on, its time is drawn this often, whether or not tiles come: what has to be worked out before them
 /// may take its time.
 const WORKING_FRAME: Duration = Duration::from_millis(250);
+
+impl App {
+    /// Draws the picture over all the space that is left, with what lies over it.
+    fn draw_picture(&mut self, ui: &mut egui::Ui, view: &View) -> canvas::Shown {
+        let camera = self.document.last_job().map(|job| job.camera);
+        let map = self.map(ui.ctx());
+        let seen = self.snapshots.seen();
+        let name = seen.map(|(snapshot, _)| snapshot.name());
+        let beside = seen
+            .zip(name.as_deref())
+            .map(|((snapshot, share), name)| Beside {
+                number: snapshot.number,
+                name,
+                film: &snapshot.film,
+                strides: &snapshot.strides,
+                view: &snapshot.view,
+                share,
+                has_line: self.snapshots.way() == Way::Wipe,
+            });
+        let over = Over {
+            map,
+            marks_clipped: self.plots.marks_clipped(view),
+            beside,
+        };
+        let keys = !self.panels.export.is_open();
+        let shown = self
+            .canvas
+            .show(ui, &self.picture, view, camera, &over, keys);
+        self.region.show(ui, &shown.place);
+        if let Some(share) = shown.wiped {
+            self.snapshots.wipe_to(share);
+        }
+        shown
+    }
+}
 
 impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
@@ -99,34 +135,7 @@ impl eframe::App for App {
         // The picture has all the space that is left.
         let canvas = ui.available_rect_before_wrap();
         let view = self.view();
-        let camera = self.document.last_job().map(|job| job.camera);
-        let map = self.map(&ctx);
-        let seen = self.snapshots.seen();
-        let name = seen.map(|(snapshot, _)| snapshot.name());
-        let beside = seen
-            .zip(name.as_deref())
-            .map(|((snapshot, share), name)| Beside {
-                number: snapshot.number,
-                name,
-                film: &snapshot.film,
-                strides: &snapshot.strides,
-                view: &snapshot.view,
-                share,
-                has_line: self.snapshots.way() == Way::Wipe,
-            });
-        let over = Over {
-            map,
-            marks_clipped: self.plots.marks_clipped(&view),
-            beside,
-        };
-        let keys = !self.panels.export.is_open();
-        let shown = self
-            .canvas
-            .show(ui, &self.picture, &view, camera, &over, keys);
-        self.region.show(ui, &shown.place);
-        if let Some(share) = shown.wiped {
-            self.snapshots.wipe_to(share);
-        }
+        let shown = self.draw_picture(ui, &view);
         self.canvas_size = Some(shown.size);
         let job = self.document.last_job();
         if self.plots.shows_accuracy()

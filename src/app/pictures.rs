@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::{App, Document, maps};
-use crate::engine::picture::Progress;
+use crate::engine::Progress;
 use crate::engine::{Generation, Picture};
 use crate::project::Job;
 use crate::render::plan::Effect;

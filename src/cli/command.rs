@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Args, ProjectArgs, RenderArgs, SpectrumArgs, StudyArgs, Sub};
 use super::error::CliError;
-use super::frames::Pictures;
+use super::pictures::Pictures;
 use crate::export::png::Bits;
 use crate::export::{Format, is_same_file};
 use crate::project::set::did_you_mean;

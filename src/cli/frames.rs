@@ -17,17 +17,6 @@ use crate::range::{self, Ended, Locked, Made, Order, Outcome, RangeError, Shots}
 use crate::render::{Cancel, Gate};
 use crate::sequence::{Frames, Sequence};
 
-/// Which pictures a command makes.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Pictures {
-    /// One, of the project's files.
-    One,
-    /// These frames of the sequence that the project's files are of.
-    Frames(Frames),
-    /// So many views once round the fire.
-    Turntable(u32),
-}
-
 /// The pictures that were asked for.
 struct Asked {
     shots: Shots,

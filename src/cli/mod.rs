@@ -11,6 +11,7 @@ mod info;
 mod json;
 mod load;
 mod output;
+mod pictures;
 mod plan;
 mod pool;
 mod render;

@@ -7,7 +7,7 @@ use indicatif::ProgressBar;
 use super::accuracy::Accuracy;
 use super::command::Render;
 use super::error::CliError;
-use super::frames::Pictures;
+use super::pictures::Pictures;
 use super::pool::pool;
 use super::stats::{Seconds, Stats};
 use super::{load, output};

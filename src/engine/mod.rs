@@ -10,7 +10,8 @@
 //! runs as if nothing had happened.
 
 mod news;
-pub mod picture;
+mod picture;
+mod progress;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -22,6 +23,7 @@ use rayon::ThreadPool;
 
 pub use news::{Generation, News, Packed, Update};
 pub use picture::Picture;
+pub use progress::Progress;
 
 use crate::project::Job;
 use crate::render::costs::costs;
@@ -306,7 +308,7 @@ impl Shared {
         let shows_enough = refined.is_some_and(|(_, before)| before.is_fine);
         let passes = match next.region {
             Some(region) => pass::ladder_within(&job.settings, region),
-            None if shows_enough => pass::ladder(&job.settings, pass::Audience::Still),
+            None if shows_enough => pass::ladder_again(&job.settings),
             None => pass::ladder(&job.settings, pass::Audience::Window),
         };
         let started = News::Started {
@@ -348,6 +350,11 @@ impl Shared {
     ) -> usize {
         for (index, pass) in passes.iter().enumerate() {
             let begun = Instant::now();
+            if plan.fields(scene, pass.level(), cancel).is_none() {
+                return index;
+            }
+            let since_submit = submitted.elapsed();
+            self.publish(generation, News::PassBegun { since_submit });
             let whole = render_pass(scene, plan, pass, cancel, &|tile| {
                 self.publish(generation, News::Tile(tile));
                 self.gate.pass(cancel);

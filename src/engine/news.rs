@@ -37,6 +37,11 @@ pub enum News {
         /// Which effects are computed, and why.
         decisions: Vec<Decision>,
     },
+    /// What the next pass needs is worked out, its rays begin.
+    PassBegun {
+        /// Time since the submit.
+        since_submit: Duration,
+    },
     /// A tile of the running pass.
     Tile(Tile),
     /// A pass is whole.

@@ -1,12 +1,9 @@
 //! The picture that a window shows, put together from updates: the old one stays until the first pass of the new
 //! one is whole.
 
-use std::time::Duration;
-
+use super::progress::Progress;
 use super::{Generation, News, Update};
-use crate::render::costs::Cost;
-use crate::render::plan::Decision;
-use crate::render::{Facts, Film, Flaws, Pass, Tile};
+use crate::render::{Film, Tile};
 
 /// The film on show and how far it is.
 #[derive(Debug)]
@@ -17,6 +14,8 @@ pub struct Picture {
     generation: Option<Generation>,
     /// How far the newest job is.
     pub progress: Progress,
+    /// What each pixel of the newest job weighs in the share of a pass: what it took in the passes before.
+    weights: Vec<f32>,
     /// Rises whenever the shown film changes.
     pub version: u64,
 }
@@ -30,39 +29,6 @@ struct Sheet {
     samples: Vec<f32>,
 }
 
-/// How far a job is.
-#[derive(Debug, Clone, Default)]
-pub struct Progress {
-    /// Its passes.
-    pub passes: Vec<Pass>,
-    /// Passes that are whole.
-    pub done: usize,
-    /// Rays of the running pass that are on the film.
-    pub rays_in_pass: u64,
-    /// Rays of the running pass altogether.
-    pub rays_of_pass: u64,
-    /// All rays so far.
-    pub rays: u64,
-    /// All samples of the medium so far.
-    pub samples: u64,
-    /// Time from the submit to the first whole pass.
-    pub first_picture: Option<Duration>,
-    /// Time from the submit to the last whole pass.
-    pub elapsed: Duration,
-    /// Whether every pass is whole.
-    pub finished: bool,
-    /// What the settings cannot show faithfully.
-    pub flaws: Flaws,
-    /// Which effects are computed, and why.
-    pub decisions: Vec<Decision>,
-    /// What has been found out about the picture so far.
-    pub facts: Facts,
-    /// What effects cost, once that is measured.
-    pub costs: Option<Vec<Cost>>,
-    /// What went wrong, if something did.
-    pub failure: Option<String>,
-}
-
 impl Picture {
     /// A black picture.
     pub fn new(size: [u32; 2]) -> Self {
@@ -71,6 +37,7 @@ impl Picture {
             coming: None,
             generation: None,
             progress: Progress::default(),
+            weights: Vec::new(),
             version: 0,
         }
     }
@@ -107,6 +74,7 @@ impl Picture {
         if self.generation != Some(update.generation) {
             self.generation = Some(update.generation);
             self.progress = Progress::default();
+            self.weights.clear();
         }
         let progress = &mut self.progress;
         match update.news {
@@ -127,10 +95,16 @@ impl Picture {
                 let again = again.map(Sheet::with_nothing_taken);
                 self.coming = Some(again.unwrap_or_else(|| Sheet::new(size)));
             }
+            News::PassBegun { since_submit } => progress.begun.push(since_submit),
             News::Tile(tile) => {
                 progress.rays_in_pass += tile.pixels.len() as u64;
                 progress.rays += tile.pixels.len() as u64;
                 progress.samples += tile.samples();
+                progress.share_of_pass += if self.weights.is_empty() {
+                    tile.pixels.len() as f64 / progress.rays_of_pass.max(1) as f64
+                } else {
+                    weight_of(&tile, &self.weights, self.shown.film.size())
+                };
                 if let Some(coming) = &mut self.coming {
                     coming.merge(&tile);
                 } else {
@@ -148,22 +122,44 @@ impl Picture {
                 progress.done = index + 1;
                 progress.elapsed = since_submit;
                 progress.first_picture.get_or_insert(since_submit);
-                progress.rays_in_pass = 0;
+                (progress.rays_in_pass, progress.share_of_pass) = (0, 0.0);
                 if let Some(coming) = self.coming.take() {
                     self.shown = coming;
                     self.version += 1;
                 }
                 let size = self.shown.film.size();
-                progress.rays_of_pass = progress
-                    .passes
-                    .get(progress.done)
-                    .map_or(0, |pass| pass.rays(size));
+                let next = progress.passes.get(progress.done);
+                progress.rays_of_pass = next.map_or(0, |pass| pass.rays(size));
+                // A region's tiles are a part of the picture's weight.
+                self.weights = match next.filter(|pass| pass.region.is_none()) {
+                    Some(_) => weights(&self.shown.samples),
+                    None => Vec::new(),
+                };
             }
             News::Finished => progress.finished = true,
             News::Costs(costs) => progress.costs = Some(costs),
             News::Failed(words) => progress.failure = Some(words),
         }
     }
+}
+
+/// What a ray takes beside its samples, in samples.
+const RAY: f32 = 4.0;
+
+/// The share of a picture's work that each pixel is, where it took so many samples.
+fn weights(samples: &[f32]) -> Vec<f32> {
+    let all: f64 = samples.iter().map(|&it| f64::from(it + RAY)).sum();
+    samples.iter().map(|it| (it + RAY) / all as f32).collect()
+}
+
+/// The share of a picture's work that the pixels below a tile are.
+fn weight_of(tile: &Tile, weights: &[f32], size: [u32; 2]) -> f64 {
+    let [across, down] = tile.covers(size);
+    let rows = weights.chunks(size[0] as usize);
+    let rows = rows.take(down.end).skip(down.start);
+    rows.flat_map(|row| &row[across.clone()])
+        .map(|&it| f64::from(it))
+        .sum()
 }
 
 impl Sheet {
@@ -188,10 +184,7 @@ impl Sheet {
         self.film.merge(tile);
         self.count(tile);
         let size = self.film.size();
-        let [across, down] = [0, 1].map(|axis| {
-            let end = tile.origin[axis] + tile.size[axis] * tile.stride;
-            tile.origin[axis] as usize..end.min(size[axis]) as usize
-        });
+        let [across, down] = tile.covers(size);
         let stride = u8::try_from(tile.stride).unwrap_or(u8::MAX);
         for row in self
             .strides

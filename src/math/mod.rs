@@ -1,9 +1,11 @@
-//! Geometry and arithmetic that know nothing of fire: rays, boxes, lanes, random numbers.
+//! Geometry and arithmetic that know nothing of fire: rays, boxes, lanes, whole and random numbers.
 
 pub mod aabb;
+mod coprime;
 pub mod lanes;
 pub mod random;
 pub mod ray;
 
 pub use aabb::Aabb;
+pub use coprime::coprime_from;
 pub use ray::Ray;

@@ -62,6 +62,14 @@ impl Tile {
         }
     }
 
+    /// The pixels that it covers of a picture of this size: columns and rows.
+    pub fn covers(&self, size: [u32; 2]) -> [Range<usize>; 2] {
+        [0, 1].map(|axis| {
+            let end = self.origin[axis] + self.size[axis] * self.stride;
+            self.origin[axis] as usize..end.min(size[axis]) as usize
+        })
+    }
+
     /// The pixels that the ray at this column and row stands for, on a picture of this size: columns and rows.
     pub fn block(&self, column: u32, row: u32, size: [u32; 2]) -> [Range<usize>; 2] {
         let first = [

@@ -2,6 +2,7 @@
 
 use super::film::Film;
 use crate::colour::display::{BakedView, View};
+use crate::math::coprime_from;
 
 /// Levels of a channel of 8 bits.
 pub const LEVELS: usize = 256;
@@ -31,11 +32,9 @@ impl Levels {
         };
         let baked = BakedView::new(&view);
         let pixels = film.pixels();
-        // Without a common divisor with the width every column is hit; one of so many in a row has none.
+        // Without a common divisor with the width every column is hit.
         let width = film.size()[0] as usize;
-        let least = (pixels.len() / most.max(1)).max(1);
-        let stride = (least..=least + width).find(|&stride| divisor(stride, width) == 1);
-        let stride = stride.unwrap_or(1);
+        let stride = coprime_from(pixels.len() / most.max(1), width);
         let mut counts = [[0_u32; LEVELS]; 3];
         let (mut all, mut black) = (0_u32, 0_u32);
         for pixel in pixels.iter().step_by(stride) {
@@ -64,15 +63,6 @@ impl Levels {
         let shares = self.shares.iter();
         let between = shares.flat_map(|shares| &shares[DARK..LEVELS - 1]);
         between.copied().fold(0.0, f32::max)
-    }
-}
-
-/// The greatest common divisor (Euclid, *Elements* VII.2).
-fn divisor(one: usize, other: usize) -> usize {
-    if other == 0 {
-        one
-    } else {
-        divisor(other, one % other)
     }
 }
 
@@ -137,10 +127,6 @@ mod tests {
             assert!((sum - 1.0).abs() < 1e-5, "{sum}");
         }
         assert_eq!(levels.peak(), 0.5);
-        assert_eq!(
-            [divisor(15, 40), divisor(17, 850), divisor(7, 40)],
-            [5, 17, 1]
-        );
         // A few pixels tell nearly the same.
         let few = Levels::of(&film, &view(), 60);
         assert!((few.black - 0.5).abs() < 0.05 && (few.clipped[0] - 0.2).abs() < 0.05);

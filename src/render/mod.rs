@@ -63,7 +63,7 @@ pub mod white;
 pub use film::{Film, Pixel, Tile};
 pub use gate::Gate;
 pub use level::Level;
-pub use pass::{Pass, Region, render_mosaic, render_pass};
+pub use pass::{Audience, Pass, Region, render_mosaic, render_pass};
 pub use plan::{Facts, Plan};
 pub use probe::{Probe, Prober};
 pub use still::{Frame, render_planned, render_still};

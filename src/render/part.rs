@@ -13,7 +13,7 @@ use super::clock::{timed, timed_alone};
 use super::difference::LIT;
 use super::film::PACKET_SIDE;
 use super::packets::{Packets, Points};
-use super::{Cancel, Level, Pass, Plan, render_pass, subpixel};
+use super::{Audience, Cancel, Level, Pass, Plan, render_pass, subpixel};
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
 
@@ -287,6 +287,7 @@ impl Look {
             samples: 1,
             step_voxels: LOOK_STEP_VOXELS,
             region: None,
+            audience: Audience::Still,
         };
         let taken = AtomicU64::new(0);
         let whole = render_pass(scene, plan, &pass, cancel, &|tile| {

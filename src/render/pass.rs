@@ -1,10 +1,11 @@
-//! In which order a picture is computed: a ladder of passes, tiles from the centre outwards, a parallel loop.
+//! In which order a picture is computed: a ladder of passes, tiles in the order that suits who waits, a parallel loop.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::film::{PACKET_SIDE, Pixel, Tile};
 use super::packets::Packets;
 use super::{Cancel, Level, Plan, Settings, subpixel};
+use crate::math::coprime_from;
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
 
@@ -24,6 +25,9 @@ pub struct Pass {
     pub step_voxels: f64,
     /// Which part of the picture it sharpens; `None` for all of it.
     pub region: Option<Region>,
+    /// Who waits for it: a person sees the middle first, a file's tiles are spread so that the finished share tells the time
+    /// that is left.
+    pub audience: Audience,
 }
 
 /// A part of a picture, pixels from its upper left corner: columns and rows from the first on, up to the second.
@@ -58,9 +62,21 @@ impl Pass {
             .sum()
     }
 
-    /// Upper left rays of its tiles, those nearest the centre first.
+    /// How fine the fields are that it needs: a coarse picture is not worth fine ones.
+    pub fn level(&self) -> Level {
+        if self.stride > 1 {
+            Level::Coarse
+        } else {
+            Level::Fine
+        }
+    }
+
+    /// Upper left rays of its tiles, in the order that suits who waits for it.
     fn tiles(&self, rays: [u32; 2]) -> Vec<[u32; 2]> {
-        let mut tiles = centre_out(rays);
+        let mut tiles = match self.audience {
+            Audience::Window => centre_out(rays),
+            Audience::Still => spread(rays),
+        };
         if let Some(region) = self.region {
             let pixels = |rays: [u32; 2]| rays.map(|ray| ray * self.stride);
             tiles.retain(|&corner| {
@@ -85,6 +101,9 @@ pub enum Audience {
     Still,
 }
 
+/// The smaller part of a length of 1 that is cut in the golden section.
+const GOLDEN: f64 = 0.381_966;
+
 /// Step of the coarse passes in voxels, if the settings do not ask for a longer one: a 1/8 picture does not
 /// show the 0.3 % that a longer step costs.
 const COARSE_STEP_VOXELS: f64 = 2.0;
@@ -102,6 +121,7 @@ pub fn ladder(settings: &Settings, audience: Audience) -> Vec<Pass> {
         samples: 1,
         step_voxels: step_voxels.max(COARSE_STEP_VOXELS),
         region: None,
+        audience,
     });
     let full = (0..settings.samples_per_pixel).map(|sample| Pass {
         stride: 1,
@@ -109,8 +129,16 @@ pub fn ladder(settings: &Settings, audience: Audience) -> Vec<Pass> {
         samples: settings.samples_per_pixel,
         step_voxels,
         region: None,
+        audience,
     });
     coarse.chain(full).collect()
+}
+
+/// The passes of a picture for a window that shows all of it already, less exactly: only what counts.
+pub fn ladder_again(settings: &Settings) -> Vec<Pass> {
+    let mut passes = ladder(settings, Audience::Window);
+    passes.retain(|pass| pass.stride == 1);
+    passes
 }
 
 /// The passes of a picture for a window that is sharp in a part of it: coarse everywhere, then fine there.
@@ -121,8 +149,7 @@ pub fn ladder_within(settings: &Settings, region: Region) -> Vec<Pass> {
     passes
 }
 
-/// Renders one pass in the calling thread's rayon pool, tiles from the centre of the picture outwards, and hands
-/// each to `sink` from the worker that made it. `false` if it was cancelled before the last tile.
+/// Renders one pass in the calling thread's rayon pool, tiles in the order that suits who waits, and hands each to `sink` from the worker that made it. `false` if it was cancelled before the last tile.
 ///
 /// The cancel is asked before each packet of sixteen rays, and before each path of light that is scattered more than
 /// once. A camera that cannot see gives no tiles: settings and camera are checked at the doors.
@@ -133,13 +160,7 @@ pub fn render_pass(
     cancel: &Cancel,
     sink: &(dyn Fn(Tile) + Sync),
 ) -> bool {
-    // A coarse picture is not worth fine fields.
-    let level = if pass.stride > 1 {
-        Level::Coarse
-    } else {
-        Level::Fine
-    };
-    let Some(fields) = plan.fields(scene, level, cancel) else {
+    let Some(fields) = plan.fields(scene, pass.level(), cancel) else {
         return false;
     };
     // Coarse passes are for speed.
@@ -222,6 +243,16 @@ fn for_each_tile(
         }
     });
     !stopped.into_inner()
+}
+
+/// Upper left rays of all tiles, those that follow each other far apart: at any time what is done is spread evenly.
+fn spread(rays: [u32; 2]) -> Vec<[u32; 2]> {
+    let mut tiles = centre_out(rays);
+    tiles.sort_unstable_by_key(|[x, y]| [*y, *x]);
+    let count = tiles.len();
+    // Steps of the golden section fill a circle most evenly (Knuth, TAOCP 6.4, theorem S).
+    let stride = coprime_from((GOLDEN * count as f64) as usize, count);
+    (0..count).map(|i| tiles[i * stride % count]).collect()
 }
 
 /// Upper left rays of all tiles, those nearest the centre first.
@@ -326,6 +357,26 @@ mod tests {
         sorted.sort_unstable();
         sorted.dedup();
         assert_eq!(sorted.len(), tiles.len());
+    }
+
+    #[test]
+    fn spread_tiles_are_all_there_and_any_part_of_them_is_spread() {
+        for rays in [[1280, 720], [100, 50], [31, 7], [500, 40]] {
+            let tiles = spread(rays);
+            let mut sorted = tiles.clone();
+            sorted.sort_unstable();
+            let mut all = centre_out(rays);
+            all.sort_unstable();
+            assert_eq!(sorted, all);
+        }
+        // A tenth of the tiles has a tenth of what lies in the middle ninth, as it has of the whole.
+        let tiles = spread([1280, 720]);
+        let is_inside = |[x, y]: &&[u32; 2]| (420..850).contains(x) && (240..480).contains(y);
+        let inside = |tiles: &[[u32; 2]]| tiles.iter().filter(is_inside).count() as f64;
+        for tenth in tiles.chunks_exact(tiles.len() / 10) {
+            let share = inside(tenth) / inside(&tiles);
+            assert!((share - 0.1).abs() < 0.025, "{share}");
+        }
     }
 
     #[test]

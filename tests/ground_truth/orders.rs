@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use glam::{DAffine3, DVec3, IVec3};
 use sootlight::render::null_collision::{Estimate, NullCollision, Params, Scattering};
-use sootlight::render::{Cancel, Film, Pass, Plan, Settings, Switch, render_pass};
+use sootlight::render::{Audience, Cancel, Film, Pass, Plan, Settings, Switch, render_pass};
 use sootlight::scene::{Scene, WavelengthSet};
 use sootlight::volume::{Border, Grid, Volume};
 
@@ -84,6 +84,7 @@ fn rays(scene: &Scene, plan: &Plan, sample: u32) -> Vec<[f64; 3]> {
         samples: SAMPLES,
         step_voxels: 1.0,
         region: None,
+        audience: Audience::Still,
     };
     let film = Mutex::new(Film::new(SIZE));
     // The first ray of a film is shown as it is.
@@ -211,6 +212,7 @@ fn a_cancelled_picture_of_higher_orders_gives_no_tile() {
         samples: 1,
         step_voxels: 1.0,
         region: None,
+        audience: Audience::Still,
     };
     let passed = Cancel::when_passed(Arc::new(1.into()), 0);
     let tiles = Mutex::new(0);

@@ -1,8 +1,8 @@
 //! The small buttons over the lower left corner of the picture.
 
 use egui::{
-    Align, Button, Color32, Frame, Label, Layout, Margin, Rect, RichText, Role, Ui, UiBuilder,
-    WidgetInfo, pos2, vec2,
+    Align, Button, Color32, Frame, Label, Layout, Margin, Rect, RichText, Role, Theme, Ui,
+    UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::moves::Action;
@@ -92,6 +92,8 @@ pub(super) fn show(ui: &mut Ui, canvas: Rect, zoom: f64, is_fit: bool) -> Vec<Ac
     };
     ui.scope_builder(builder, |ui| {
         ui.shrink_clip_rect(canvas);
+        // The ground below them is dark in either look of the window.
+        ui.style_mut().visuals = ui.ctx().style_of(Theme::Dark).visuals.clone();
         ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
         ui.spacing_mut().button_padding = vec2(6.0, 2.0);
         if wide {

@@ -1,6 +1,7 @@
 //! What burns, what its soot is like, and how hot it is.
 
 mod glow;
+mod heat;
 
 use egui::Ui;
 
@@ -14,11 +15,6 @@ use crate::physics::soot::{
 };
 use crate::project::{Control, Job, Project, SmokeSettings, SootSettings, ranges};
 use crate::scene::Fuel;
-
-/// What temperature offsets may be, K: more than any flame.
-const OFFSETS_K: [f64; 2] = [-1e5, 1e5];
-/// What factors from a file's numbers to kelvin may be.
-const SCALES_K: [f64; 2] = [-1e9, 1e9];
 
 /// By how much more spheres of a radius must absorb than small particles for it to be told.
 const TOLD_ABSORPTION: f64 = 0.045;
@@ -94,7 +90,7 @@ pub(super) fn show(
 /// Draws the section of what the file's other fields are worth.
 pub(super) fn heat_and_smoke(ui: &mut Ui, project: &mut Project, known: Known<'_>) {
     section(ui, "Heat and smoke", true, |ui| {
-        heat(ui, project, known);
+        heat::show(ui, project, known);
         Knob {
             label: "Smoke amount",
             unit: unit::TIMES,
@@ -238,51 +234,4 @@ fn radius(ui: &mut Ui, project: &mut Project, [idle, idle_hold]: [Option<String>
         words
     };
     note(ui, &idle_hold.unwrap_or(words));
-}
-
-/// How the file's heat becomes kelvin. The numbers of the preset are the defaults.
-fn heat(ui: &mut Ui, project: &mut Project, known: Known<'_>) {
-    let maps = known.job.and_then(|job| {
-        Some((
-            job.flame.maps.temperature.as_ref()?,
-            job.proposed.temperature.as_ref()?,
-        ))
-    });
-    let Some((map, proposed)) = maps else {
-        return;
-    };
-    let set = &mut project.volume.temperature;
-    let size = proposed.scale.abs().max(1e-6);
-    let mut scale = set.scale.unwrap_or(map.scale);
-    let changed = Knob {
-        label: "Temp. scale",
-        unit: unit::KELVIN_PER_UNIT,
-        slider: [0.25 * size, 4.0 * size],
-        range: SCALES_K,
-        logarithmic: true,
-        default: proposed.scale,
-        tip: "Kelvin for one unit of the file's heat. Hotter soot is brighter and whiter: its light grows with about \
-              the tenth power of its temperature. Solvers write heat without a unit, so this is the first number to \
-              get right. What exceeds the field's bounds is cut off there, and said below.",
-        idle: known.idle(Control::Heat),
-    }
-    .show(ui, &mut scale);
-    if changed {
-        set.scale = (scale != proposed.scale).then_some(scale);
-    }
-    let mut offset = set.offset.unwrap_or(map.offset);
-    let changed = Knob {
-        label: "Temp. offset",
-        unit: unit::KELVIN,
-        slider: [proposed.offset - 1000.0, proposed.offset + 1000.0],
-        range: OFFSETS_K,
-        logarithmic: false,
-        default: proposed.offset,
-        tip: "Temperature where the file's heat is 0. Raising it warms all of the fire by as many kelvin.",
-        idle: None,
-    }
-    .show(ui, &mut offset);
-    if changed {
-        set.offset = (offset != proposed.offset).then_some(offset);
-    }
 }

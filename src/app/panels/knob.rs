@@ -224,7 +224,8 @@ pub(super) fn name(ui: &mut Ui, label: &str, tip: &str) -> Response {
     let size = vec2(NAME_WIDTH, ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_width(NAME_WIDTH);
-        ui.add(Label::new(label).selectable(false).sense(Sense::click()))
+        // Clicked by a hand alone: the keyboard's way through the panel is that of the controls.
+        ui.add(Label::new(label).selectable(false).sense(Sense::CLICK))
     })
     .inner
     .on_hover_text(tip)

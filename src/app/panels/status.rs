@@ -13,8 +13,7 @@ use crate::app::App;
 use crate::app::accuracy::Told;
 use crate::app::files::Loading;
 use crate::engine::Engine;
-use crate::engine::picture::Progress;
-use crate::render::Pass;
+use crate::engine::Progress;
 
 /// Height of the line in points, and of the space above and below its words.
 const HEIGHT: f32 = 28.0;
@@ -147,7 +146,7 @@ fn rendering(ui: &mut Ui, app: &App) {
         .submitted
         .as_ref()
         .map_or(Duration::ZERO, |submitted| submitted.at.elapsed());
-    bar(ui, share(progress));
+    bar(ui, progress.share() as f32);
     let job = app.document.last_job();
     let accuracy = if job.is_some_and(|job| app.accuracy.sees_nothing(job)) {
         "nothing is seen, so there is no error".to_owned()
@@ -237,25 +236,6 @@ fn flaw_words(ui: &mut Ui, flaws: &[&str]) {
         .on_hover_text(lines.join("\n"));
 }
 
-/// Finished share of all samples, 0 to 1.
-fn share(progress: &Progress) -> f32 {
-    if progress.finished {
-        return 1.0;
-    }
-    // Samples of a pass: one for each step of each ray.
-    let weight = |pass: &Pass| 1.0 / (f64::from(pass.stride * pass.stride) * pass.step_voxels);
-    let all: f64 = progress.passes.iter().map(weight).sum();
-    let done: f64 = progress.passes.iter().take(progress.done).map(weight).sum();
-    let running = progress.passes.get(progress.done).map_or(0.0, |pass| {
-        weight(pass) * progress.rays_in_pass as f64 / progress.rays_of_pass.max(1) as f64
-    });
-    if all > 0.0 {
-        ((done + running) / all) as f32
-    } else {
-        0.0
-    }
-}
-
 /// The words of the line, each with the width that its longest form needs, the most wanted first.
 fn cells(
     progress: &Progress,
@@ -281,8 +261,8 @@ fn cells(
         format!("{:.2} s", time.as_secs_f64())
     });
     vec![
-        (format!("{:.0} %", 100.0 * share(progress)), 42.0),
-        (time_left(progress, elapsed, preparing), 78.0),
+        (format!("{:.0} %", 100.0 * progress.share()), 42.0),
+        (time_left(progress, since_submit, preparing), 78.0),
         (format!("pass {pass}/{count}"), 70.0),
         (format!("{elapsed:.2} s"), 60.0),
         (format!("{} rays/s", counted(rate(progress.rays))), 104.0),
@@ -294,23 +274,19 @@ fn cells(
     ]
 }
 
-/// Finished share up to which nothing can be told of the rest: tiles begin in the middle, where the fire is.
-const TOO_EARLY: f64 = 0.05;
-
 /// How long the rest takes, if it goes on as it went.
-fn time_left(progress: &Progress, elapsed: f64, preparing: Option<f64>) -> String {
-    let share = f64::from(share(progress));
+fn time_left(progress: &Progress, since_submit: Duration, preparing: Option<f64>) -> String {
     if progress.finished {
         "done".to_owned()
-    } else if progress.done > 0 && progress.rays_in_pass == 0 {
-        // Light from all sides is worked out before a pass's first rays.
+    } else if progress.prepares() && progress.done > 0 {
         preparing.map_or("preparing…".to_owned(), |share| {
             format!("light {:.0} %", 100.0 * share)
         })
-    } else if share > TOO_EARLY {
-        format!("{:.1} s left", elapsed * (1.0 - share) / share)
     } else {
-        "… s left".to_owned()
+        let left = progress.left(since_submit);
+        left.map_or("… s left".to_owned(), |left| {
+            format!("{:.1} s left", left.as_secs_f64())
+        })
     }
 }
 
@@ -328,50 +304,36 @@ fn counted(number: f64) -> String {
 mod tests {
     use super::*;
     use crate::render::Pass;
+    use crate::render::pass::Audience;
     use crate::scene::WavelengthSet;
     use crate::study::{Choice, Error, Numbers, Split};
 
-    fn ladder(done: usize, rays_in_pass: u64) -> Progress {
-        let passes = [(8, 2.0), (4, 2.0), (2, 2.0), (1, 1.0)]
-            .map(|(stride, step_voxels)| Pass {
-                stride,
-                sample: 0,
-                samples: 1,
-                step_voxels,
-                region: None,
-            })
-            .to_vec();
-        Progress {
-            passes,
-            done,
-            rays_in_pass,
-            rays_of_pass: 100,
+    #[test]
+    fn the_time_left_is_told_or_what_is_waited_for() {
+        let pass = Pass {
+            stride: 1,
+            sample: 0,
+            samples: 1,
+            step_voxels: 1.0,
+            region: None,
+            audience: Audience::Window,
+        };
+        let second = Duration::from_secs(1);
+        let mut progress = Progress {
+            passes: vec![pass; 2],
+            done: 1,
+            begun: vec![second; 1],
             ..Progress::default()
-        }
-    }
-
-    #[test]
-    fn the_share_counts_samples_and_ends_at_one() {
-        let coarse = 0.5 * (1.0 / 64.0 + 1.0 / 16.0 + 0.25);
-        let mut progress = ladder(3, 50);
-        let expected = (coarse + 0.5) / (coarse + 1.0);
-        assert!((f64::from(share(&progress)) - expected).abs() < 1e-6);
-        progress.finished = true;
-        assert_eq!(share(&progress), 1.0);
-        assert_eq!(share(&Progress::default()), 0.0);
-    }
-
-    #[test]
-    fn the_time_left_is_what_the_rest_takes_at_the_same_rate() {
-        let mut progress = ladder(3, 50);
-        let (share, left) = (f64::from(share(&progress)), time_left(&progress, 2.0, None));
-        assert_eq!(left, format!("{:.1} s left", 2.0 / share - 2.0));
-        progress.finished = true;
-        assert_eq!(time_left(&progress, 2.0, None), "done");
-        assert_eq!(time_left(&ladder(0, 0), 0.1, None), "… s left");
+        };
+        let told = |progress: &Progress, light| time_left(progress, 4 * second, light);
         // Nothing is told of a pass that has not begun.
-        assert_eq!(time_left(&ladder(3, 0), 2.0, None), "preparing…");
-        assert_eq!(time_left(&ladder(3, 0), 2.0, Some(0.414)), "light 41 %");
+        assert_eq!(told(&progress, None), "preparing…");
+        assert_eq!(told(&progress, Some(0.414)), "light 41 %");
+        progress.begun.push(2 * second);
+        assert_eq!(told(&progress, None), "3.0 s left");
+        progress.finished = true;
+        assert_eq!(told(&progress, None), "done");
+        assert_eq!(told(&Progress::default(), None), "… s left");
     }
 
     #[test]

@@ -167,7 +167,7 @@ impl Plots {
                         match self.tab {
                             Tab::Pixel => self.pixel.show(ui, engine, view, place),
                             Tab::Levels => {
-                                levels::show(ui, shown.film, view, &mut self.marks_clipped)
+                                levels::show(ui, shown.film, view, &mut self.marks_clipped);
                             }
                             Tab::FuelAndAir => self.optics.show(ui, job),
                             Tab::Volume => self.slice.show(ui, engine),
