@@ -26,5 +26,6 @@ mod properties;
 mod render;
 mod screenshots;
 mod study;
+mod time_left;
 #[cfg(feature = "window")]
 mod window;

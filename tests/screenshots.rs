@@ -203,13 +203,36 @@ fn of_the_shared_volumes() {
     let embergen = ["embergen_cc0/embergen_fire_a_60.vdb"];
     window(&data, "window_pool.png", &pool);
     window(&data, "window_embergen.png", &embergen);
-    let press = |key: &str| {
-        format!(
-            "xdotool search --name Sootlight windowfocus; sleep 0.3; xdotool key {key}; sleep 2"
-        )
-    };
     window_after(&data, "window_histogram.png", &pool, &press("h"));
     window_after(&data, "window_volume.png", &embergen, &press("v"));
+}
+
+/// Hands that press some keys.
+fn press(keys: &str) -> String {
+    format!("xdotool search --name Sootlight windowfocus; sleep 0.3; xdotool key {keys}; sleep 2")
+}
+
+#[test]
+#[ignore = "writes screenshots/, by the command at the top of this file"]
+fn of_the_windows() {
+    let Some(shared) = common::shared() else {
+        return;
+    };
+    let data = shared.join("data");
+    let fire = "embergen_cc0/embergen_fire_a_60.vdb";
+    // The window tells where a picture goes: nothing but its name, from the topmost folder.
+    let whole = data.join(fire);
+    let whole = whole.to_str().expect("a path of letters");
+    window_after(
+        Path::new("/"),
+        "window_export.png",
+        &[whole],
+        &press("ctrl+e"),
+    );
+    window_after(&data, "window_light.png", &[fire], &press("F2"));
+    window_after(&data, "window_keys.png", &[fire], &press("F1"));
+    let bright = [fire, "--set", "view.exposure_ev=2.5"];
+    window_after(&data, "window_clipped.png", &bright, &press("h j"));
 }
 
 #[test]

@@ -10,9 +10,9 @@ mod still;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -38,7 +38,7 @@ pub(super) struct Progress {
     pub(super) share: f64,
     /// Share of the light from all sides, 0 to 1, while it is worked out before the first rays.
     pub(super) preparing: Option<f64>,
-    /// Time since it began.
+    /// Time in which that was rendered: what is looked at and worked out before the first ray of a still does not count.
     pub(super) elapsed: Duration,
 }
 
@@ -72,6 +72,8 @@ struct Shared {
     woken_ms: AtomicU64,
     /// How far the light is that is worked out before the first rays.
     preparation: Preparation,
+    /// When a still's rays began.
+    rays: OnceLock<Instant>,
 }
 
 const MILLION: f64 = 1e6;
@@ -90,12 +92,16 @@ impl Exporter {
     pub(super) fn begin(&mut self, order: Order) {
         self.start(order.path.clone(), false, move |shared, begun, wake| {
             shared.outcome(begun, wake, |cancel, progress| {
-                let light = &shared.preparation;
-                export(&order, cancel, light, progress).map(|flaws| Outcome::Done {
-                    path: order.path.clone(),
-                    size: order.project.render.size,
-                    seconds: begun.elapsed().as_secs_f64(),
-                    flaws,
+                let begin = || {
+                    let _ = shared.rays.set(Instant::now());
+                };
+                export(&order, cancel, (&shared.preparation, &begin), progress).map(|flaws| {
+                    Outcome::Done {
+                        path: order.path.clone(),
+                        size: order.project.render.size,
+                        seconds: begun.elapsed().as_secs_f64(),
+                        flaws,
+                    }
                 })
             })
         });
@@ -205,7 +211,8 @@ impl Exporter {
     pub(super) fn running(&self) -> Option<(&Path, Progress)> {
         self.running.as_ref().map(|running| {
             let share = running.shared.millionths.load(Ordering::Relaxed) as f64 / MILLION;
-            let elapsed = running.begun.elapsed();
+            let rays = running.shared.rays.get();
+            let elapsed = rays.unwrap_or(&running.begun).elapsed();
             let preparing = running.shared.preparation.share();
             let progress = Progress {
                 share,

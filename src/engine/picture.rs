@@ -143,8 +143,9 @@ impl Picture {
     }
 }
 
-/// What a ray takes beside its samples, in samples.
-const RAY: f32 = 4.0;
+/// What a pixel without samples takes of a fine pass, in samples of the coarse passes, of which a pixel has a few: next to
+/// nothing.
+const RAY: f32 = 0.05;
 
 /// The share of a picture's work that each pixel is, where it took so many samples.
 fn weights(samples: &[f32]) -> Vec<f32> {

@@ -7,7 +7,7 @@ use crate::export::{ExportError, Still, check_target};
 use crate::project::ProjectError;
 use crate::range::RangeError;
 use crate::render::preparation::Preparation;
-use crate::render::{Cancel, Flaws};
+use crate::render::{Cancel, Flaws, Level};
 use crate::study;
 
 /// Why nothing was written.
@@ -25,11 +25,11 @@ pub(super) enum NotExported {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-/// The whole road, on the exporter's thread.
+/// The whole road, on the exporter's thread. `begin` hears of the first ray.
 pub(super) fn export(
     order: &Order,
     cancel: &Cancel,
-    preparation: &Preparation,
+    (preparation, begin): (&Preparation, &(dyn Fn() + Sync)),
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Flaws, NotExported> {
     // Writing to a pipe would wait for its reader, and the window for that.
@@ -55,6 +55,9 @@ pub(super) fn export(
         let (settings, wished) = (still.job.settings, still.job.accuracy);
         let aim = study::aim(&scene, plan, &settings, wished, None, cancel);
         still.job.settings = aim.settings;
+        if aim.plan.fields(&scene, Level::Fine, cancel).is_some() {
+            begin();
+        }
         let frame = still.render_planned(&scene, &aim.plan, cancel, progress)?;
         let written = still.write(&frame, order.format, &order.path, cancel)?;
         Ok(written.flaws)

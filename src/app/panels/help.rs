@@ -1,6 +1,6 @@
 //! One page of everything that keys and hands do.
 
-use egui::{Context, Grid, RichText, ScrollArea, Ui, vec2};
+use egui::{Align, Context, Grid, Layout, RichText, ScrollArea, Ui};
 
 use super::centred;
 
@@ -96,13 +96,16 @@ pub(in crate::app) fn show(ctx: &Context, is_open: &mut bool) {
             ScrollArea::vertical()
                 .max_height(whole.height() - BAR)
                 .show(ui, |ui| {
-                    ui.horizontal_wrapped(|ui| {
+                    // Where the window is narrow they stand below each other.
+                    let layout = if whole.width() >= WIDTH + 40.0 {
+                        Layout::left_to_right(Align::Min)
+                    } else {
+                        Layout::top_down(Align::Min)
+                    };
+                    ui.with_layout(layout, |ui| {
                         let (left, right) = HANDS.split_at(COLUMN);
                         for (number, column) in [left, right].into_iter().enumerate() {
-                            // Where the window is narrow they stand below each other.
-                            ui.allocate_ui(vec2(0.5 * WIDTH, 0.0), |ui| {
-                                ui.vertical(|ui| page(ui, number, column));
-                            });
+                            ui.vertical(|ui| page(ui, number, column));
                         }
                     });
                 });
