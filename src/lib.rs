@@ -11,7 +11,8 @@
 //! 11 main.rs      run, print the error chain, exit code
 //! 10 cli          flags → validated command: window | render | study | info | spectrum
 //!  9 app          the window (feature `window`)
-//!  8 range        frames of a sequence as pictures: what is measured once and held, what is written, what is kept
+//!  8 range        frames of a sequence, or views around one fire, as pictures: what is measured once and held, what is
+//!                 written, what is kept
 //!  7 engine       background rendering for the window: submit(Job), drain() → tiles
 //!    study        accuracy against time: variants, reference, the front; which numbers are good enough
 //!    export       a still's whole road to its file: PNG, EXR; provenance comes in as text; nothing half-written

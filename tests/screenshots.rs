@@ -288,8 +288,7 @@ fn of_maps_and_snapshots() {
     let data = shared.join("data");
     let focus = "xdotool search --name Sootlight windowfocus; sleep 0.3";
     let fire = ["embergen_cc0/embergen_fire_a_60.vdb"];
-    let hands = format!("{focus}; xdotool key k; sleep 2");
-    window_after(&data, "window_cost.png", &fire, &hands);
+    window_after(&data, "window_cost.png", &fire, &press("k"));
     // Minutes, until much of the reference is there.
     let hands = format!("{focus}; xdotool key e; sleep 240");
     window_after(&data, "window_error.png", &fire, &hands);

@@ -156,7 +156,10 @@ impl App {
         let order = match (many, self.timeline.playing()) {
             (Many::Frames, None) => None,
             (Many::Frames, Some(playing)) => wish.range(document, playing, metering, effects),
-            (Many::Turntable(views), _) => wish.turntable(document, views, metering, effects),
+            (Many::Turntable(views), _) => {
+                let assumed = self.timeline.assumed().map(String::from).collect();
+                wish.turntable(document, (views, assumed), metering, effects)
+            }
         };
         if let Some(order) = order {
             self.exporter.begin_range(order);

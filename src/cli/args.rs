@@ -8,6 +8,7 @@ use clap::{Args as ClapArgs, Parser, Subcommand};
 
 use crate::project::set::KEYS;
 use crate::project::{PRESETS, Quality};
+use crate::range::VIEWS;
 use crate::sequence::Frames;
 
 /// Fire as physics shows it.
@@ -112,7 +113,7 @@ pub(super) struct RenderArgs {
         long,
         value_name = "N",
         conflicts_with_all = ["time_limit", "frames"],
-        value_parser = clap::value_parser!(u32).range(2..=MOST_VIEWS)
+        value_parser = clap::value_parser!(u32).range(i64::from(VIEWS[0])..=i64::from(VIEWS[1]))
     )]
     pub(super) turntable: Option<u32>,
     /// Threads to render with; all cores if not given. The picture is the same.
@@ -200,9 +201,6 @@ fn seconds(text: &str) -> Result<f64, String> {
         )),
     }
 }
-
-/// What `--turntable` may be: a tenth of a degree from one to the next.
-const MOST_VIEWS: i64 = 3600;
 
 /// What `--time-limit` may be, seconds: up to a year.
 const MOST_HURRIED_S: f64 = 0.001;

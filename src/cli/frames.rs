@@ -24,7 +24,7 @@ struct Asked {
     noun: &'static str,
     /// All of them in words, for statistics.
     words: String,
-    /// What is to be told before the first number after each of these.
+    /// The first number of each gap, with what is said of it before the next picture.
     gaps: VecDeque<(u64, String)>,
 }
 

@@ -21,7 +21,7 @@ pub use error::{FrameError, RangeError};
 pub use hold::{Taken, is_held};
 pub use lock::{Locked, lock};
 pub use order::Order;
-pub use shots::{Shot, Shots};
+pub use shots::{Shot, Shots, VIEWS};
 pub use target::target;
 pub use write::{Ended, Made, Outcome, Seconds, write};
 

@@ -7,6 +7,9 @@ use crate::math::Aabb;
 use crate::project::Project;
 use crate::sequence::Sequence;
 
+/// How many views a turntable may have: one alone does not turn, and the most are a tenth of a degree apart.
+pub const VIEWS: [u32; 2] = [2, 3600];
+
 /// Digits of a turntable's numbers at least: as many as programs that put pictures together expect.
 const DIGITS: usize = 4;
 

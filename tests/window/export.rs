@@ -14,7 +14,7 @@ use sootlight::study;
 use super::*;
 
 /// Opens the window that asks for an export and types a path into it.
-fn ask_for(harness: &mut Harness<'_, App>, path: &Path) {
+pub(super) fn ask_for(harness: &mut Harness<'_, App>, path: &Path) {
     press(harness, "Export…");
     let field = harness.get_by_role_and_label(Role::TextInput, "File");
     field.set_text_value_accesskit(path.to_str().expect("a path of letters"));

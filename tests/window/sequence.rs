@@ -268,14 +268,9 @@ fn a_range_is_exported_as_the_window_holds_it_and_goes_on_where_it_was_stopped()
     let held = harness.state().document().project.clone();
     let exposure = harness.state().view().exposure;
 
-    harness.get_by_label("Export…").click_accesskit();
-    harness.run_steps(4);
     let output = tempfile::tempdir().expect("a temporary folder");
-    let field = harness.get_by_role_and_label(Role::TextInput, "File");
     // Named after the frame on show: its number becomes that of each.
-    let name = output.path().join("fire_04.png");
-    field.set_text_value_accesskit(name.to_str().expect("a path of letters"));
-    harness.run_steps(2);
+    export::ask_for(&mut harness, &output.path().join("fire_04.png"));
     for (label, side) in [("Width", 60.0), ("Height", 40.0)] {
         harness
             .get_by_role_and_label(Role::SpinButton, label)
@@ -340,13 +335,8 @@ fn a_frame_that_lacks_a_grid_is_shown_without_it() {
 #[test]
 fn a_turntable_goes_once_round_what_is_on_show() {
     let mut harness = window_of(Project::default(), [900.0, 420.0]);
-    harness.get_by_label("Export…").click_accesskit();
-    harness.run_steps(4);
     let output = tempfile::tempdir().expect("a temporary folder");
-    let field = harness.get_by_role_and_label(Role::TextInput, "File");
-    let name = output.path().join("turn.png");
-    field.set_text_value_accesskit(name.to_str().expect("a path of letters"));
-    harness.run_steps(2);
+    export::ask_for(&mut harness, &output.path().join("turn.png"));
     for (label, value) in [("Width", 24.0), ("Height", 16.0), ("Views", 4.0)] {
         harness
             .get_by_role_and_label(Role::SpinButton, label)

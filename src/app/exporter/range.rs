@@ -77,12 +77,12 @@ impl Wish {
         })
     }
 
-    /// The order of so many views of what is on show, once round it from where the window sees it. `None` while nothing is
-    /// shown.
+    /// The order of so many views of what is on show, once round it from where the window sees it, with what was assumed of it
+    /// before it was held. `None` while nothing is shown.
     pub(in crate::app) fn turntable(
         self,
         document: &Document,
-        views: u32,
+        (views, assumed): (u32, Vec<String>),
         metering: Option<Metering>,
         on_show: Option<Effects>,
     ) -> Option<RangeOrder> {
@@ -92,7 +92,7 @@ impl Wish {
             shots: Shots::turntable(sources, views),
             output: self.path,
             format: self.format,
-            assumed: Vec::new(),
+            assumed,
         })
     }
 

@@ -11,10 +11,7 @@ use crate::app::exporter::{Exporter, Wish};
 use crate::app::panels::Many;
 use crate::app::timeline::Timeline;
 use crate::app::words::name_of;
-use crate::range::Shots;
-
-/// What a turntable may be: a tenth of a degree from view to view.
-const VIEWS: [u32; 2] = [2, 3600];
+use crate::range::{Shots, VIEWS};
 
 /// What is remembered between frames.
 #[derive(Debug)]
