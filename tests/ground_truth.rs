@@ -12,6 +12,7 @@ use sootlight::volume::{Border, Grid, Volume};
 
 use super::common::{self, three};
 
+mod cell_walk;
 mod fire_light;
 mod furnace;
 mod glow;

@@ -14,20 +14,13 @@ use sootlight::render::clock::timed_on_pool;
 use sootlight::render::difference::difference;
 use sootlight::render::{Cancel, Film, Frame, Level, Plan, Settings, render_planned};
 use sootlight::scene::{Scene, WavelengthSet};
-use sootlight::study::{self, Numbers, Pilot};
+use sootlight::study::{self, Numbers, Pilot, REFERENCE};
 use sootlight::volume::{self, BuiltIn, Limits, Wanted};
 
 use super::common;
 
 /// What qualities aim at, ΔE_ITP at the 95th percentile.
 const TARGETS: [f64; 4] = [5.0, 1.0, 0.3, 0.05];
-/// Numbers of the pictures that predictions are compared with.
-const REFERENCE: Numbers = Numbers {
-    step_voxels: 0.125,
-    wavelengths: WavelengthSet::Plain(64),
-    samples_per_pixel: 16,
-};
-
 struct Looked {
     scene: Scene,
     settings: Settings,

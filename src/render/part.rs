@@ -13,7 +13,8 @@ use super::clock::{timed, timed_alone};
 use super::difference::LIT;
 use super::film::PACKET_SIDE;
 use super::packets::{Packets, Points};
-use super::{Audience, Cancel, Level, Pass, Plan, render_pass, subpixel};
+use super::subpixel::Lattice;
+use super::{Audience, Cancel, Level, Pass, Plan, render_pass};
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
 
@@ -170,6 +171,8 @@ impl Part {
             cpu_s: 0.0,
             wall_s: 0.0,
         };
+        let lattice = Lattice::of(samples);
+        let within: Vec<[f64; 2]> = (0..samples).map(|sample| lattice.place(sample)).collect();
         let (done, wall_s) = timed(|| {
             let mut on_clock_s = 0.0;
             for group in &self.groups {
@@ -177,7 +180,7 @@ impl Part {
                 let chunks: Option<Vec<_>> = chunks
                     .map(|corners| {
                         let (made, cpu_s) =
-                            timed_alone(|| self.chunk(packets, corners, samples, cancel));
+                            timed_alone(|| self.chunk(packets, corners, &within, cancel));
                         Some((made?, cpu_s))
                     })
                     .collect();
@@ -195,12 +198,13 @@ impl Part {
         Some(rendered)
     }
 
-    /// The pixels of some packets one after another, and how many samples of the medium they took.
+    /// The pixels of some packets one after another, by rays at these places within each, and how many samples of the medium
+    /// they took.
     fn chunk(
         &self,
         packets: &Packets<'_>,
         corners: &[[u32; 2]],
-        samples: u32,
+        places: &[[f64; 2]],
         cancel: &Cancel,
     ) -> Option<(Vec<[f64; 3]>, u64)> {
         let mut means = Vec::with_capacity(LANES * corners.len());
@@ -208,8 +212,7 @@ impl Part {
         for &corner in corners {
             let pixels = self.pixels(corner);
             let mut sums = [[0.0; 3]; LANES];
-            for sample in 0..samples {
-                let within = subpixel::place(sample, samples);
+            for (sample, within) in (0_u32..).zip(places) {
                 let points: Points = pixels.map(|pixel| {
                     pixel.map(|[x, y]| [f64::from(x) + within[0], f64::from(y) + within[1]])
                 });
@@ -221,7 +224,7 @@ impl Part {
                     }
                 }
             }
-            let share = 1.0 / f64::from(samples.max(1));
+            let share = 1.0 / places.len().max(1) as f64;
             let inside = sums
                 .iter()
                 .zip(&pixels)

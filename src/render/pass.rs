@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::film::{PACKET_SIDE, Pixel, Tile};
 use super::packets::Packets;
-use super::{Cancel, Level, Plan, Settings, subpixel};
+use super::subpixel::Lattice;
+use super::{Cancel, Level, Plan, Settings};
 use crate::math::coprime_from;
 use crate::math::lanes::LANES;
 use crate::scene::Scene;
@@ -169,8 +170,9 @@ pub fn render_pass(
         return true;
     };
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
+    let within = Lattice::of(pass.samples).place(pass.sample);
     for_each_tile(&pass.tiles(rays), rays, TILE, |corner, size| {
-        render_tile(&packets, pass, corner, size, cancel).map(sink)
+        render_tile(&packets, pass, within, corner, size, cancel).map(sink)
     })
 }
 
@@ -195,11 +197,13 @@ pub fn render_mosaic(
     let Ok(packets) = Packets::new(scene, plan, fields, settings.step_voxels, true) else {
         return true;
     };
+    let lattice = Lattice::of(settings.samples_per_pixel);
     let rays = plan.tables.size;
     for_each_tile(&mosaic(rays), rays, PACKET_SIDE, |corner, size| {
         let mut whole: Option<Tile> = None;
         for pass in &passes {
-            let tile = render_tile(&packets, pass, corner, size, cancel)?;
+            let within = lattice.place(pass.sample);
+            let tile = render_tile(&packets, pass, within, corner, size, cancel)?;
             match &mut whole {
                 Some(whole) => whole.join(&tile),
                 None => whole = Some(tile),
@@ -274,10 +278,11 @@ fn sort_centre_out(corners: &mut [[u32; 2]], side: u32, size: [u32; 2]) {
     corners.sort_by_key(|&[x, y]| from_centre(x, size[0]) + from_centre(y, size[1]));
 }
 
-/// `None` if cancelled.
+/// A ray for each pixel of a tile, at the same place within each. `None` if cancelled.
 fn render_tile(
     packets: &Packets<'_>,
     pass: &Pass,
+    within: [f64; 2],
     corner: [u32; 2],
     size: [u32; 2],
     cancel: &Cancel,
@@ -285,7 +290,6 @@ fn render_tile(
     let mut pixels = vec![Pixel::default(); (size[0] * size[1]) as usize];
     let packets_across = size.map(|side| side.div_ceil(PACKET_SIDE) as usize);
     let mut taken = Vec::with_capacity(packets_across[0] * packets_across[1]);
-    let offset = subpixel::place(pass.sample, pass.samples);
     for top in (0..size[1]).step_by(PACKET_SIDE as usize) {
         for left in (0..size[0]).step_by(PACKET_SIDE as usize) {
             // Steps of a packet: which pixels, which rays, the march, and back to their places.
@@ -298,7 +302,7 @@ fn render_tile(
             });
             let points = places.map(|place| {
                 let on_picture = |axis: usize, ray: u32| {
-                    (f64::from(corner[axis] + ray) + offset[axis]) * f64::from(pass.stride)
+                    (f64::from(corner[axis] + ray) + within[axis]) * f64::from(pass.stride)
                 };
                 place.map(|[x, y]| [on_picture(0, x), on_picture(1, y)])
             });

@@ -1,7 +1,7 @@
 //! What accuracy costs in time: of this scene, on this machine.
 //!
 //! A [`Part`](crate::render::part::Part) of the picture, spread over where there is light, is rendered in several ways and
-//! compared with a reference of the same pixels: the shortest step, 64 wavelengths, 16 rays a pixel. What a part takes is
+//! compared with a reference of the same pixels: the shortest step, 64 wavelengths, 28 rays a pixel. What a part takes is
 //! scaled to the whole picture.
 //!
 //! * The [`Pilot`] is quick: it tries steps, wavelengths and rays each by themselves. Small differences add up pixel by pixel

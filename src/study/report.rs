@@ -1,6 +1,6 @@
 //! Every variant measured for itself, against one reference.
 //!
-//! The reference is the same part of the picture with the shortest step, 64 wavelengths and 16 rays a pixel, and with every
+//! The reference is the same part of the picture with the shortest step, 64 wavelengths and 28 rays a pixel, and with every
 //! effect that the plan has found can be seen. What it is off by itself is estimated by the pilot, and no error is told below it.
 
 use super::front::front;

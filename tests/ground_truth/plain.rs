@@ -14,7 +14,7 @@ use sootlight::volume::{self, Limits, Volume};
 use crate::common;
 
 /// Side of the pictures, pixels.
-const SIDE: u32 = 32;
+pub(super) const SIDE: u32 = 32;
 /// Steps at which the march is compared with the plain one, voxels.
 const STEP: f64 = 0.25;
 /// Steps at which both have nearly come to their limit.
@@ -22,7 +22,7 @@ const FINE_STEP: f64 = 1.0 / 64.0;
 /// What nothing that makes the march quick may change, ΔE_ITP: a twentieth of what is just seen.
 const MOST_DE: f64 = 0.05;
 
-type Picture = Vec<[f64; 3]>;
+pub(super) type Picture = Vec<[f64; 3]>;
 
 /// A picture by L += t B (1 − e^{−τ}), whose rays take the samples that are asked for: where each begins and ends, m from
 /// where a ray enters the box that is so long for it.
@@ -69,7 +69,12 @@ fn evenly(scene: &Scene, plan: &Plan, step: f64) -> Picture {
     })
 }
 
-fn marched(scene: &Scene, plan: &Plan, settings: &Settings, step_voxels: f64) -> Picture {
+pub(super) fn marched(
+    scene: &Scene,
+    plan: &Plan,
+    settings: &Settings,
+    step_voxels: f64,
+) -> Picture {
     let settings = Settings {
         step_voxels,
         ..*settings
@@ -79,7 +84,7 @@ fn marched(scene: &Scene, plan: &Plan, settings: &Settings, step_voxels: f64) ->
     pixels.map(|it| it.xyz.map(f64::from)).collect()
 }
 
-fn job(volume: &Arc<Volume>, sets: &[&str]) -> Job {
+pub(super) fn job(volume: &Arc<Volume>, sets: &[&str]) -> Job {
     let mut project = Project::default();
     let always = [
         "effects.scattering=off",
@@ -132,18 +137,29 @@ fn what_makes_the_march_quick_cannot_be_seen() {
         let sets = format!("soot.amount={amount}");
         compare(&sets, &job(&torch, &[&sets]));
     }
+    for (name, volume) in shared_fires() {
+        compare(name, &job(&volume, &[]));
+    }
+}
+
+/// One of each kind of shared fire.
+pub(super) fn shared_fires() -> Vec<(&'static str, Arc<Volume>)> {
     let Some(shared) = common::shared() else {
-        return;
+        return Vec::new();
     };
-    for file in [
+    let files = [
         "plume/plume.vdb",
         "pool/pool_0022_zip_half.vdb",
         "campfire/campfire_0022_zip_half.vdb",
         "embergen_cc0/embergen_fire_a_60.vdb",
         "panfire_seq/panfire_0006.vdb",
-    ] {
+    ];
+    let opened = files.map(|file| {
         let path = shared.join("data").join(file);
-        let volume = Arc::new(volume::open(&[path], &Limits::default()).unwrap());
-        compare(file, &job(&volume, &[]));
-    }
+        (file, volume::open(&[path], &Limits::default()).unwrap())
+    });
+    opened
+        .into_iter()
+        .map(|(file, volume)| (file, Arc::new(volume)))
+        .collect()
 }
