@@ -5,10 +5,13 @@
 //! severalfold at a flame's edge. The means are taken by Gauss's points, so all light that the fire emits is kept, however
 //! large the cubes.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use glam::{DVec3, IVec3, UVec3};
 use rayon::prelude::*;
 
 use super::lookup::lookup;
+use super::preparation::Watch;
 use super::tables::Tables;
 use crate::math::lanes::{self, Arithmetic, Kernel};
 use crate::scene::glow::Source;
@@ -146,8 +149,13 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// The smallest cells of which there are no more than `most`, a power of two voxels wide.
-    pub(super) fn new(scene: &Scene, colours: &Colours, most: usize) -> Self {
+    /// The smallest cells of which there are no more than `most`, a power of two voxels wide. `None` if cancelled.
+    pub(super) fn new(
+        scene: &Scene,
+        colours: &Colours,
+        most: usize,
+        watch: &Watch<'_>,
+    ) -> Option<Self> {
         let medium = scene.flame.medium();
         let [low, high] = hull(medium);
         let mut edge = 1;
@@ -176,8 +184,8 @@ impl Cells {
         let padded = cells.strides()[2] * (size[2] + 2);
         cells.records = vec![[0.0; WIDE]; padded * cells.chunks];
         cells.filled = vec![false; padded];
-        cells.fill(medium, colours);
-        cells
+        cells.fill(medium, colours, watch)?;
+        Some(cells)
     }
 
     /// How far apart cells that follow along each axis are stored, in records.
@@ -198,8 +206,9 @@ impl Cells {
         self.edge as f64 * DVec3::new(middle(0), middle(1), middle(2))
     }
 
-    /// Takes the means, one layer of cells after another.
-    fn fill(&mut self, medium: &Medium, colours: &Colours) {
+    /// Takes the means, one layer of cells after another. `None` if cancelled.
+    fn fill(&mut self, medium: &Medium, colours: &Colours, watch: &Watch<'_>) -> Option<()> {
+        let done = AtomicUsize::new(0);
         let layer = self.strides()[2];
         let ([x, y, z], chunks, row) = (self.size, self.chunks, self.strides()[1]);
         let (first, edge) = (IVec3::from(self.first), self.edge as i32);
@@ -209,7 +218,10 @@ impl Cells {
             .skip(1)
             .take(z)
             .enumerate()
-            .for_each(|(k, (records, filled))| {
+            .try_for_each(|(k, (records, filled))| {
+                if watch.is_cancelled() {
+                    return None;
+                }
                 for (j, i) in (0..y).flat_map(|j| (0..x).map(move |i| (j, i))) {
                     let cell = first + IVec3::new(i as i32, j as i32, k as i32);
                     let at = (j + 1) * row + i + 1;
@@ -223,7 +235,10 @@ impl Cells {
                     };
                     filled[at] = mean.may_be_filled() && lanes::dispatch(mean);
                 }
-            });
+                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                watch.tell(done as f64 / z as f64);
+                Some(())
+            })
     }
 }
 

@@ -51,6 +51,24 @@ impl Tile {
         taken.map_or(0.0, |&taken| taken as f32 / (side(0) * side(1)) as f32)
     }
 
+    /// One of its packets by itself, counted row by row.
+    pub(super) fn packet(&self, index: usize) -> Self {
+        let across = self.size[0].div_ceil(PACKET_SIDE).max(1);
+        let first = [index as u32 % across, index as u32 / across].map(|at| at * PACKET_SIDE);
+        let size = [0, 1].map(|axis| PACKET_SIDE.min(self.size[axis] - first[axis]));
+        let row = |y: u32| {
+            let begin = (y * self.size[0] + first[0]) as usize;
+            self.pixels[begin..begin + size[0] as usize].iter().copied()
+        };
+        Self {
+            origin: [0, 1].map(|axis| self.origin[axis] + first[axis] * self.stride),
+            size,
+            pixels: (first[1]..first[1] + size[1]).flat_map(row).collect(),
+            taken: self.taken.get(index).copied().into_iter().collect(),
+            ..*self
+        }
+    }
+
     /// Takes the next sample of the same rays into the mean.
     pub(super) fn join(&mut self, next: &Self) {
         let share = 1.0 / (next.sample as f32 + 1.0);
@@ -188,6 +206,25 @@ mod tests {
         assert_eq!(counted.block(4, 5, [19, 20]), [18..19, 14..16]);
         // Nobody has counted.
         assert_eq!(tile(1, 0, [0, 0], [1, 1], 1.0).samples_of(0, 0), 0.0);
+    }
+
+    #[test]
+    fn packets_by_themselves_are_the_tile() {
+        let size = [19, 20];
+        let mut whole = tile(2, 0, [10, 4], [5, 6], 0.0);
+        for (i, pixel) in (0_u16..).zip(&mut whole.pixels) {
+            pixel.xyz[1] = f32::from(i);
+        }
+        whole.taken = vec![160, 8, 40, 6];
+        let packets: Vec<Tile> = (0..4).map(|i| whole.packet(i)).collect();
+        assert_eq!([packets[1].origin, packets[2].origin], [[18, 4], [10, 12]]);
+        assert_eq!([packets[1].size, packets[2].size], [[1, 4], [4, 2]]);
+        let [mut one, mut other] = [Film::new(size), Film::new(size)];
+        one.merge(&whole);
+        packets.iter().for_each(|packet| other.merge(packet));
+        assert_eq!(one, other);
+        let samples: u64 = packets.iter().map(Tile::samples).sum();
+        assert_eq!(samples, whole.samples());
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! In which order a picture is computed: a ladder of passes, tiles in the order that suits who waits, a parallel loop.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 use super::film::{PACKET_SIDE, Pixel, Tile};
 use super::packets::Packets;
@@ -105,6 +106,9 @@ pub enum Audience {
 /// The smaller part of a length of 1 that is cut in the golden section.
 const GOLDEN: f64 = 0.381_966;
 
+/// What of a tile is there is handed on after so long, where a packet's rays take their time: a person sees that it goes on.
+const PROMPT: Duration = Duration::from_millis(100);
+
 /// Step of the coarse passes in voxels, if the settings do not ask for a longer one: a 1/8 picture does not
 /// show the 0.3 % that a longer step costs.
 const COARSE_STEP_VOXELS: f64 = 2.0;
@@ -172,7 +176,21 @@ pub fn render_pass(
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
     let within = Lattice::of(pass.samples).place(pass.sample);
     for_each_tile(&pass.tiles(rays), rays, TILE, |corner, size| {
-        render_tile(&packets, pass, within, corner, size, cancel).map(sink)
+        let mut handed = 0;
+        let mut since = Instant::now();
+        let tile = render_tile(&packets, pass, within, corner, size, cancel, &mut |tile| {
+            if since.elapsed() > PROMPT {
+                (handed..tile.taken.len()).for_each(|packet| sink(tile.packet(packet)));
+                handed = tile.taken.len();
+                since = Instant::now();
+            }
+        })?;
+        if handed == 0 {
+            sink(tile);
+        } else {
+            (handed..tile.taken.len()).for_each(|packet| sink(tile.packet(packet)));
+        }
+        Some(())
     })
 }
 
@@ -203,7 +221,7 @@ pub fn render_mosaic(
         let mut whole: Option<Tile> = None;
         for pass in &passes {
             let within = lattice.place(pass.sample);
-            let tile = render_tile(&packets, pass, within, corner, size, cancel)?;
+            let tile = render_tile(&packets, pass, within, corner, size, cancel, &mut |_| ())?;
             match &mut whole {
                 Some(whole) => whole.join(&tile),
                 None => whole = Some(tile),
@@ -278,7 +296,8 @@ fn sort_centre_out(corners: &mut [[u32; 2]], side: u32, size: [u32; 2]) {
     corners.sort_by_key(|&[x, y]| from_centre(x, size[0]) + from_centre(y, size[1]));
 }
 
-/// A ray for each pixel of a tile, at the same place within each. `None` if cancelled.
+/// A ray for each pixel of a tile, at the same place within each. `sofar` hears of the tile after each of its packets, whose counts
+/// are those in it. `None` if cancelled.
 fn render_tile(
     packets: &Packets<'_>,
     pass: &Pass,
@@ -286,10 +305,17 @@ fn render_tile(
     corner: [u32; 2],
     size: [u32; 2],
     cancel: &Cancel,
+    sofar: &mut dyn FnMut(&Tile),
 ) -> Option<Tile> {
-    let mut pixels = vec![Pixel::default(); (size[0] * size[1]) as usize];
     let packets_across = size.map(|side| side.div_ceil(PACKET_SIDE) as usize);
-    let mut taken = Vec::with_capacity(packets_across[0] * packets_across[1]);
+    let mut tile = Tile {
+        stride: pass.stride,
+        sample: pass.sample,
+        origin: corner.map(|ray| ray * pass.stride),
+        size,
+        pixels: vec![Pixel::default(); (size[0] * size[1]) as usize],
+        taken: Vec::with_capacity(packets_across[0] * packets_across[1]),
+    };
     for top in (0..size[1]).step_by(PACKET_SIDE as usize) {
         for left in (0..size[0]).step_by(PACKET_SIDE as usize) {
             // Steps of a packet: which pixels, which rays, the march, and back to their places.
@@ -308,23 +334,17 @@ fn render_tile(
             });
             let (packet, of_packet) = packets.render(&points, pass.sample, cancel)?;
             // More than 2³² samples for sixteen rays would take longer than anybody waits.
-            taken.push(u32::try_from(of_packet).unwrap_or(u32::MAX));
+            tile.taken
+                .push(u32::try_from(of_packet).unwrap_or(u32::MAX));
             for (place, pixel) in places.iter().zip(packet) {
                 if let Some([x, y]) = place {
-                    pixels[(y * size[0] + x) as usize] = pixel;
+                    tile.pixels[(y * size[0] + x) as usize] = pixel;
                 }
             }
+            sofar(&tile);
         }
     }
-    let origin = corner.map(|ray| ray * pass.stride);
-    Some(Tile {
-        stride: pass.stride,
-        sample: pass.sample,
-        origin,
-        size,
-        pixels,
-        taken,
-    })
+    Some(tile)
 }
 
 #[cfg(test)]

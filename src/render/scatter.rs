@@ -94,6 +94,10 @@ const MOST_LOBE: f64 = 8.0;
 /// edge lose about 1 % of it where soot ends sharply, and single places are off by as much: 0.2 % of the picture.
 const LITTLE: f64 = 0.2;
 
+/// Share of the work that is told as that of the medium's cells.
+const CELLS_SHARE: f64 = 0.05;
+/// Share of the work after which all light is gathered, and is sharpened.
+const GATHERED_SHARE: f64 = 0.97;
 /// Share of the work that is told as the first order's where there are more.
 const FIRST_SHARE: f64 = 0.6;
 
@@ -161,7 +165,7 @@ impl InScatter {
         let few = reduced.as_ref().map_or(tables, |(few, _)| few);
         // The medium in cells, and the directions from which their light is taken.
         let colours = Colours::new(&scene.flame, few);
-        let cells = Cells::new(scene, &colours, effort.cells);
+        let cells = Cells::new(scene, &colours, effort.cells, &watch.part(0.0, CELLS_SHARE))?;
         let asymmetry = colours.asymmetry();
         // As many whatever the wavelengths, so that these alone make no difference.
         let strongest = LOBES_NM.map(|nm| scene.flame.asymmetry(nm).abs());
@@ -177,8 +181,8 @@ impl InScatter {
             to_voxels: scene.flame.medium().lattice_from_world.matrix3,
             light: Vec::new(),
         };
-        let first = if again { FIRST_SHARE } else { 1.0 };
-        rays.gather(&cells, &mut gathered, &watch.part(0.0, first))?;
+        let first = if again { FIRST_SHARE } else { GATHERED_SHARE };
+        rays.gather(&cells, &mut gathered, &watch.part(CELLS_SHARE, first))?;
 
         let share = gathered.share(&colours, directions.len());
         let mut left_out = None;
@@ -187,7 +191,7 @@ impl InScatter {
             let most = [effort.cells, effort.cells_again][usize::from(is_little)];
             let coarser = exchange::larger(&cells, most);
             let coarser = Gathered::new(scene, &coarser, &asymmetry, luminous(few));
-            let (fields, rest) = ([&gathered, &coarser], watch.part(first, 1.0));
+            let (fields, rest) = ([&gathered, &coarser], watch.part(first, GATHERED_SHARE));
             let (often, rest) = orders::scattered_often(&mut rays, &colours, fields, &rest)?;
             left_out = Some(rest);
             often
@@ -196,6 +200,8 @@ impl InScatter {
         };
         let voxel_m = scene.flame.medium().voxel_size_m();
         let reach_m = reach_m(cells.edge as f64, voxel_m) as f32;
+        let rest = watch.part(GATHERED_SHARE, 1.0);
+        let once = sharpen::sharpened(&gathered, &extinction, reach_m, &rest)?;
         let features = tables.features.len();
         let radicals = colours.len() - colours.nodes;
         Some(Self {
@@ -203,7 +209,7 @@ impl InScatter {
             per_voxel: 1.0 / cells.edge as f64,
             size: cells.size,
             chunks: cells.chunks,
-            light: with_more(sharpen::sharpened(&gathered, &extinction, reach_m), &often),
+            light: with_more(once, &often),
             reach_m,
             counts: [colours.nodes, features - radicals, radicals],
             share,
@@ -333,6 +339,7 @@ impl Rays<'_> {
             sweep.follow(&mut self.light);
             gathered.take(&sweep, &self.light, direction);
         }
+        watch.tell(1.0);
         gathered.normalise(self.directions);
         Some(())
     }

@@ -1,6 +1,5 @@
 //! Writing the picture into a file: what to ask for, how far it is, and what became of it.
 
-mod believed;
 mod many;
 mod size;
 mod target;

@@ -2,6 +2,7 @@
 //! [`Command`], which is obeyed once every panel is drawn.
 
 mod air;
+mod believed;
 mod camera;
 mod compare;
 mod effects;

@@ -1,7 +1,6 @@
 //! Flames to start from: the program's own with their pictures, and those that a person kept.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{
@@ -10,6 +9,7 @@ use egui::{
 };
 
 use super::Command;
+use super::believed::Believed;
 use super::knob::{button, name};
 use crate::app::scene_file::{ENDING, is_scene};
 use crate::project::{PRESETS, Preset, THUMBNAIL};
@@ -18,8 +18,6 @@ use crate::project::{PRESETS, Preset, THUMBNAIL};
 const COLUMNS: usize = 2;
 /// Points for each pixel of a preset's picture: it is as sharp where two pixels are a point.
 const SCALE: f32 = 0.5;
-/// How long it is believed which presets lie in the person's folder.
-const BELIEVED: Duration = Duration::from_secs(2);
 /// Most height of the menu, points.
 const HEIGHT: f32 = 420.0;
 
@@ -30,8 +28,8 @@ pub(in crate::app) struct PresetsMenu {
     pub(in crate::app) folder: Option<PathBuf>,
     /// In the order of [`PRESETS`], once they were seen.
     pictures: Vec<Option<TextureHandle>>,
-    own: Vec<PathBuf>,
-    looked_up: Option<Instant>,
+    /// Presets in that folder.
+    own: Believed<PathBuf, Vec<PathBuf>>,
     name: String,
 }
 
@@ -94,12 +92,9 @@ impl PresetsMenu {
         let Some(folder) = self.folder.clone() else {
             return;
         };
-        if self.looked_up.is_none_or(|at| at.elapsed() > BELIEVED) {
-            self.own = scenes_in(&folder);
-            self.looked_up = Some(Instant::now());
-        }
+        let own = self.own.of(folder.clone(), |folder| scenes_in(folder));
         ui.separator();
-        for path in &self.own {
+        for path in own {
             let label = path.file_stem().unwrap_or_default().to_string_lossy();
             let entry = ui.button(label).on_hover_text(path.display().to_string());
             if entry.clicked() {
@@ -107,7 +102,7 @@ impl PresetsMenu {
                 ui.close();
             }
         }
-        ui.horizontal(|ui| {
+        let kept = ui.horizontal(|ui| {
             let field = TextEdit::singleline(&mut self.name)
                 .hint_text("a name")
                 .desired_width(120.0);
@@ -117,15 +112,19 @@ impl PresetsMenu {
             let path = path_of(&folder, &self.name);
             let tip = "Keep fuel, salt, glow, soot, smoke and effects as a preset of your own: a scene file in the folder below, \
                        which others can be given.";
-            let replaces = path.as_ref().is_some_and(|path| self.own.contains(path));
+            let replaces = path.as_ref().is_some_and(|path| own.contains(path));
             let label = if replaces { "Replace" } else { "Keep" };
-            if button(ui, path.is_some(), label, tip) {
+            let kept = button(ui, path.is_some(), label, tip);
+            if kept {
                 commands.extend(path.map(Command::KeepPreset));
                 self.name.clear();
-                self.looked_up = None;
                 ui.close();
             }
+            kept
         });
+        if kept.inner {
+            self.own.forget();
+        }
         let whereabouts = format!("Your presets lie in {}", folder.display());
         ui.label(RichText::new(whereabouts).small().weak());
     }

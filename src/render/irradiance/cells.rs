@@ -5,6 +5,8 @@
 //! samples temperature is near linear and Planck's law convex, so a sum over the middles of voxels or of their halves is
 //! too dark by per cents: each of the two finer rules is right to the third degree there.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use glam::{DMat3, DVec3, UVec3, Vec3};
 use rayon::prelude::*;
 
@@ -106,12 +108,15 @@ impl Cells {
     ) -> Option<Self> {
         let bricks = bricks_of_slots(medium);
         let world_from_lattice = medium.lattice_from_world.matrix3.inverse();
+        let done = AtomicUsize::new(0);
         let parts: Vec<Part> = bricks
             .par_iter()
             .map(|&brick| {
                 if watch.is_cancelled() {
                     return Part::default();
                 }
+                let before = done.fetch_add(1, Ordering::Relaxed);
+                watch.tell(before as f64 / bricks.len() as f64);
                 lanes::dispatch(Sum {
                     medium,
                     channels,

@@ -146,6 +146,9 @@ impl Effort {
     }
 }
 
+/// Share of the work that is told as that of the cells.
+const CELLS_SHARE: f64 = 0.1;
+
 /// The fire's light, gathered so that any point of a surface can ask for it.
 #[derive(Debug)]
 pub(super) struct FireLight {
@@ -180,7 +183,8 @@ impl FireLight {
         let reduced = tables.for_fields(scene);
         let channels = Channels::new(scene, reduced.as_ref().map_or(tables, |(few, _)| few));
         let fineness = effort.fineness(bricks, directions.len());
-        let cells = Cells::new(medium, &channels, fineness, watch)?;
+        let of_cells = watch.part(0.0, CELLS_SHARE);
+        let cells = Cells::new(medium, &channels, fineness, &of_cells)?;
         let blocks = channels.blocks();
         // As many whatever the wavelengths, so that these alone make no difference.
         let most_tables = effort.table_blocks
@@ -193,7 +197,7 @@ impl FireLight {
             &tree,
             directions,
             effort.apart,
-            watch,
+            &watch.part(CELLS_SHARE, 1.0),
         )?;
         let mut alone = vec![[1.0; BLOCK]; blocks];
         for (thermal, share) in channels.thermal.iter().zip(&escape.thermal_share) {

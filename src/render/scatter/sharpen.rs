@@ -5,12 +5,15 @@
 //! are a apart, over all places between them, spread a peak by a variance of a²/6; twice over by a²/3. A spread of
 //! variance v is to first order 1 + v/2 ∇², and so undone by 1 − v/2 ∇².
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use super::gathered::Gathered;
 use crate::math::lanes::{self, Arithmetic, Kernel};
 use crate::render::cells::{Cells, Chunk, WIDE};
 use crate::render::own_light::own_light;
+use crate::render::preparation::Watch;
 
 /// Half the variance of the two means, in cells².
 const HALF_SPREAD: f32 = 1.0 / 6.0;
@@ -18,12 +21,13 @@ const HALF_SPREAD: f32 = 1.0 / 6.0;
 /// Weights of a cell and of each of its neighbours along an axis in a mean that spreads a peak as the two means do.
 const SPREAD: [f32; 2] = [1.0 - 2.0 * HALF_SPREAD, HALF_SPREAD];
 
-/// The light of all cells, sharpened, less what they see of their own glow.
+/// The light of all cells, sharpened, less what they see of their own glow. `None` if cancelled.
 pub(super) fn sharpened(
     gathered: &Gathered<'_>,
     extinction: &[Vec<Chunk>; 2],
     reach_m: f32,
-) -> Vec<Chunk> {
+    watch: &Watch<'_>,
+) -> Option<Vec<Chunk>> {
     let (cells, chunks) = (gathered.cells, gathered.cells.chunks);
     let mut own = cells.records.clone();
     own.par_chunks_exact_mut(chunks)
@@ -31,20 +35,27 @@ pub(super) fn sharpened(
         .filter(|(_, filled)| **filled)
         .for_each(|(record, _)| see_own(record, extinction, reach_m));
     let mut light = vec![[0.0; WIDE]; gathered.light.len()];
-    let [x, y, _] = cells.size;
+    let [x, y, z] = cells.size;
+    let done = AtomicUsize::new(0);
     light
         .par_chunks_exact_mut((x * y * chunks).max(1))
         .enumerate()
-        .for_each(|(z, light)| {
+        .try_for_each(|(layer, light)| {
+            if watch.is_cancelled() {
+                return None;
+            }
+            let before = done.fetch_add(1, Ordering::Relaxed);
+            watch.tell(before as f64 / z as f64);
             lanes::dispatch(Layer {
                 gathered,
                 cells,
                 own: &own,
-                z,
+                z: layer,
                 light,
             });
-        });
-    light
+            Some(())
+        })?;
+    Some(light)
 }
 
 /// Turns a record into the light that its cell has of its own glow.

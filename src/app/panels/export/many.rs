@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use egui::{Button, DragValue, Ui};
 
-use super::believed::Believed;
 use super::{Command, short, warn};
 use crate::app::exporter::{Exporter, Wish};
 use crate::app::panels::Many;
+use crate::app::panels::believed::Believed;
 use crate::app::timeline::Timeline;
 use crate::app::words::name_of;
 use crate::range::{Shots, VIEWS};
@@ -109,7 +109,7 @@ fn tell_existing(
     let Some(targets) = targets else { return };
     let count = |targets: &Vec<PathBuf>| targets.iter().filter(|path| path.exists()).count();
     let all = targets.len();
-    let there = existing.of(targets, count);
+    let there = *existing.of(targets, count);
     if there > 0 {
         warn(
             ui,

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use egui::Context;
 use rfd::FileDialog;
 
-use super::believed::Believed;
 use crate::app::files::{Asked, paths_of};
+use crate::app::panels::believed::Believed;
 use crate::app::words::name_of;
 use crate::export::Format;
 use crate::export::png::Bits;
@@ -89,7 +89,7 @@ impl Target {
         let path = self.path()?;
         let name = name_of(&path);
         let exists = |(path, _): &(PathBuf, bool)| path.exists();
-        self.looked_up.of((path, running), exists).then_some(name)
+        (*self.looked_up.of((path, running), exists)).then_some(name)
     }
 
     /// Asks with the desktop's dialog, on a thread of its own.

@@ -17,18 +17,24 @@ impl<K, V> Default for Believed<K, V> {
     }
 }
 
-impl<K: PartialEq, V: Copy> Believed<K, V> {
+impl<K: PartialEq, V> Believed<K, V> {
     /// What there is to be found of it; looked up once a second, or when it is asked of something else.
-    pub(super) fn of(&mut self, what: K, look_up: impl FnOnce(&K) -> V) -> V {
-        if let Some((known, found, at)) = &self.found
-            && *known == what
-            && at.elapsed() < BELIEVED
-        {
-            return *found;
-        }
-        let found = look_up(&what);
-        self.found = Some((what, found, Instant::now()));
-        found
+    pub(super) fn of(&mut self, what: K, look_up: impl FnOnce(&K) -> V) -> &V {
+        let is_believed =
+            |(known, _, at): &(K, V, Instant)| *known == what && at.elapsed() < BELIEVED;
+        let found = match self.found.take() {
+            Some(found) if is_believed(&found) => found,
+            _ => {
+                let found = look_up(&what);
+                (what, found, Instant::now())
+            }
+        };
+        &self.found.insert(found).1
+    }
+
+    /// The disk was changed: it is asked again.
+    pub(super) fn forget(&mut self) {
+        self.found = None;
     }
 }
 
@@ -45,7 +51,9 @@ mod tests {
                 asked += 1;
                 asked
             });
-            assert_eq!(found, expected);
+            assert_eq!(*found, expected);
         }
+        believed.forget();
+        assert_eq!(*believed.of(1, |_| 7), 7);
     }
 }
