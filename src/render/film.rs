@@ -221,7 +221,9 @@ mod tests {
         assert_eq!([packets[1].size, packets[2].size], [[1, 4], [4, 2]]);
         let [mut one, mut other] = [Film::new(size), Film::new(size)];
         one.merge(&whole);
-        packets.iter().for_each(|packet| other.merge(packet));
+        for packet in &packets {
+            other.merge(packet);
+        }
         assert_eq!(one, other);
         let samples: u64 = packets.iter().map(Tile::samples).sum();
         assert_eq!(samples, whole.samples());
