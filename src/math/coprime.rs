@@ -5,8 +5,13 @@ pub fn coprime_from(least: usize, of: usize) -> usize {
     let least = least.max(1);
     // One of so many in a row has none.
     (least..=least + of)
-        .find(|&number| divisor(number, of) == 1)
+        .find(|&number| are_coprime(number, of))
         .unwrap_or(1)
+}
+
+/// Whether two numbers have no common divisor but 1.
+pub fn are_coprime(one: usize, other: usize) -> bool {
+    divisor(one, other) == 1
 }
 
 /// The greatest common divisor (Euclid, *Elements* VII.2).

@@ -7,5 +7,5 @@ pub mod random;
 pub mod ray;
 
 pub use aabb::Aabb;
-pub use coprime::coprime_from;
+pub use coprime::{are_coprime, coprime_from};
 pub use ray::Ray;
