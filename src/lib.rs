@@ -20,7 +20,7 @@
 //!  6 project      all that a person can set: the scene file, --set, presets
 //!  5 render       THE CORE: plan and tables; fields of scattered, thrown and bent light; ways, kernel and march; film,
 //!                 passes, develop; parts that stand for a picture; the unbiased reference; what effects cost. Headless,
-//!                 no global state, and no clock but to tell what work took
+//!                 no global state, and no clock but to tell what work took and when to hand on what is there of it
 //!  4 scene        Flame (volume + fuel + salt + air), what its gas does beside soot and how it bends light, how finely and
 //!                 in which means each brick is looked at, Camera,
 //!                 Stage, wavelength sets

@@ -13,8 +13,8 @@
 //! All 7811 pairs of ends of 63 controls, in 17 pictures a volume, on the three built-in flames, a small file and the 32 files of
 //! the shared volumes took half an hour: no picture had a pixel that is no number or light below nothing, nothing panicked, and
 //! what was clamped was told. Refused in words were a least temperature above the greatest (of EmberGen's files, which begin at
-//! 1300 K, any greatest of 300 K), and gas of 1000 Pa that must bend light. The longest time without progress was 1.0 s (the
-//! pool fire of the finest grid, whose scattered light between smooth voxels is worked out for 64 wavelengths), 0.9 s on
+//! 1300 K, any greatest of 300 K), and gas of 1000 Pa that must bend light. The longest time without progress was
+//! 0.8 s (the pool fire of the finest grid, whose scattered light between smooth voxels is worked out for 64 wavelengths), 0.9 s on
 //! EmberGen's fire and 0.5 s or less on the built-in flames, on two cores with nothing else to do. Pairs found voxels of 10 km
 //! whose dense soot paths took for ever to pass by: see `DENSEST` in `render/null_collision/path.rs`.
 

@@ -5,8 +5,6 @@
 //! severalfold at a flame's edge. The means are taken by Gauss's points, so all light that the fire emits is kept, however
 //! large the cubes.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use glam::{DVec3, IVec3, UVec3};
 use rayon::prelude::*;
 
@@ -208,7 +206,7 @@ impl Cells {
 
     /// Takes the means, one layer of cells after another. `None` if cancelled.
     fn fill(&mut self, medium: &Medium, colours: &Colours, watch: &Watch<'_>) -> Option<()> {
-        let done = AtomicUsize::new(0);
+        let pieces = watch.pieces(self.size[2]);
         let layer = self.strides()[2];
         let ([x, y, z], chunks, row) = (self.size, self.chunks, self.strides()[1]);
         let (first, edge) = (IVec3::from(self.first), self.edge as i32);
@@ -219,9 +217,7 @@ impl Cells {
             .take(z)
             .enumerate()
             .try_for_each(|(k, (records, filled))| {
-                if watch.is_cancelled() {
-                    return None;
-                }
+                pieces.begin()?;
                 for (j, i) in (0..y).flat_map(|j| (0..x).map(move |i| (j, i))) {
                     let cell = first + IVec3::new(i as i32, j as i32, k as i32);
                     let at = (j + 1) * row + i + 1;
@@ -235,8 +231,6 @@ impl Cells {
                     };
                     filled[at] = mean.may_be_filled() && lanes::dispatch(mean);
                 }
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                watch.tell(done as f64 / z as f64);
                 Some(())
             })
     }

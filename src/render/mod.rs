@@ -48,6 +48,7 @@ pub mod pass;
 pub mod plan;
 pub mod preparation;
 pub mod probe;
+mod prompt;
 mod scatter;
 mod shift;
 mod spans;

@@ -1,10 +1,11 @@
 //! In which order a picture is computed: a ladder of passes, tiles in the order that suits who waits, a parallel loop.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::film::{PACKET_SIDE, Pixel, Tile};
 use super::packets::Packets;
+use super::prompt::Prompt;
 use super::subpixel::Lattice;
 use super::{Cancel, Level, Plan, Settings};
 use crate::math::coprime_from;
@@ -176,20 +177,11 @@ pub fn render_pass(
     let rays = plan.tables.size.map(|side| side.div_ceil(pass.stride));
     let within = Lattice::of(pass.samples).place(pass.sample);
     for_each_tile(&pass.tiles(rays), rays, TILE, |corner, size| {
-        let mut handed = 0;
-        let mut since = Instant::now();
+        let mut prompt = Prompt::new(PROMPT, sink);
         let tile = render_tile(&packets, pass, within, corner, size, cancel, &mut |tile| {
-            if since.elapsed() > PROMPT {
-                (handed..tile.taken.len()).for_each(|packet| sink(tile.packet(packet)));
-                handed = tile.taken.len();
-                since = Instant::now();
-            }
+            prompt.hear(tile);
         })?;
-        if handed == 0 {
-            sink(tile);
-        } else {
-            (handed..tile.taken.len()).for_each(|packet| sink(tile.packet(packet)));
-        }
+        prompt.end(tile);
         Some(())
     })
 }

@@ -1,7 +1,7 @@
 //! How far what is worked out before the rays is: light from all sides takes seconds, in which no pixel changes.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 
 use super::Cancel;
 
@@ -63,10 +63,39 @@ impl Watch<'_> {
         self.cancel.is_cancelled()
     }
 
+    /// The same for work in so many pieces.
+    pub(super) fn pieces(&self, count: usize) -> Pieces<'_> {
+        Pieces {
+            watch: self,
+            begun: AtomicUsize::new(0),
+            count,
+        }
+    }
+
     /// Tells the share of this part that is done.
     pub(super) fn tell(&self, share: f64) {
         self.preparation
             .tell(self.from + share * (self.to - self.from));
+    }
+}
+
+/// Work of so many pieces alike, done in any order by any threads.
+#[derive(Debug)]
+pub(super) struct Pieces<'a> {
+    watch: &'a Watch<'a>,
+    begun: AtomicUsize,
+    count: usize,
+}
+
+impl Pieces<'_> {
+    /// Tells that one more is begun; `None` if it shall not be.
+    pub(super) fn begin(&self) -> Option<()> {
+        if self.watch.is_cancelled() {
+            return None;
+        }
+        let before = self.begun.fetch_add(1, Ordering::Relaxed);
+        self.watch.tell(before as f64 / self.count.max(1) as f64);
+        Some(())
     }
 }
 
@@ -81,7 +110,24 @@ impl Drop for Ended<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicU64;
+
     use super::*;
+
+    #[test]
+    fn pieces_are_told_as_they_begin_until_it_is_cancelled() {
+        let told = Preparation::default();
+        let current = Arc::new(AtomicU64::new(0));
+        let cancel = Cancel::when_passed(Arc::clone(&current), 0);
+        told.during(&cancel, |watch| {
+            let half = watch.part(0.0, 0.5);
+            let pieces = half.pieces(4);
+            assert!((0..3).all(|_| pieces.begin().is_some()));
+            assert_eq!(told.share(), Some(0.25));
+            current.store(1, Ordering::Relaxed);
+            assert_eq!(pieces.begin(), None);
+        });
+    }
 
     #[test]
     fn parts_of_parts_are_shares_of_all_and_nothing_is_told_after_the_end() {

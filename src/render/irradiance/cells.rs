@@ -5,8 +5,6 @@
 //! samples temperature is near linear and Planck's law convex, so a sum over the middles of voxels or of their halves is
 //! too dark by per cents: each of the two finer rules is right to the third degree there.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use glam::{DMat3, DVec3, UVec3, Vec3};
 use rayon::prelude::*;
 
@@ -108,27 +106,20 @@ impl Cells {
     ) -> Option<Self> {
         let bricks = bricks_of_slots(medium);
         let world_from_lattice = medium.lattice_from_world.matrix3.inverse();
-        let done = AtomicUsize::new(0);
-        let parts: Vec<Part> = bricks
+        let pieces = watch.pieces(bricks.len());
+        let parts: Option<Vec<Part>> = bricks
             .par_iter()
             .map(|&brick| {
-                if watch.is_cancelled() {
-                    return Part::default();
-                }
-                let before = done.fetch_add(1, Ordering::Relaxed);
-                watch.tell(before as f64 / bricks.len() as f64);
-                lanes::dispatch(Sum {
+                pieces.begin()?;
+                Some(lanes::dispatch(Sum {
                     medium,
                     channels,
                     fineness,
                     brick,
                     world_from_lattice,
-                })
+                }))
             })
             .collect();
-        if watch.is_cancelled() {
-            return None;
-        }
         let mut cells = Self {
             per_edge: fineness.cells,
             bricks,
@@ -138,7 +129,7 @@ impl Cells {
             growth: Vec::new(),
             spots: Vec::new(),
         };
-        for part in parts {
+        for part in parts? {
             cells.dense.extend(part.dense);
             cells.dense_where_bright.extend(part.dense_where_bright);
             cells.power.extend(part.power);

@@ -20,8 +20,6 @@
 //! | u | ∫ f_v ds from outside | m |
 //! | y, W, t | depth and growth of a line, transmittance of soot at its wavelength: see `render/glow.rs` | 1 |
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -67,28 +65,22 @@ impl Escape {
         watch: &Watch<'_>,
     ) -> Option<Self> {
         let blocks = channels.blocks();
-        let done = AtomicUsize::new(0);
-        let followed: Vec<Sums> = (0..directions.len())
+        let pieces = watch.pieces(directions.len());
+        let followed: Option<Vec<Sums>> = (0..directions.len())
             .into_par_iter()
             .map(|i| {
-                if watch.is_cancelled() {
-                    return Sums::default();
-                }
-                let before = done.fetch_add(1, Ordering::Relaxed);
-                watch.tell(before as f64 / directions.len() as f64);
-                lanes::dispatch(Follow {
+                pieces.begin()?;
+                Some(lanes::dispatch(Follow {
                     medium,
                     channels,
                     cells,
                     tree,
                     outwards: directions.get(i),
                     apart,
-                })
+                }))
             })
             .collect();
-        if watch.is_cancelled() {
-            return None;
-        }
+        let followed = followed?;
         let mut escape = Self {
             directions,
             share: Vec::new(),

@@ -71,8 +71,8 @@ fn orders(
     let mut last_sum = scattered(cells, colours, like, &last);
     let mut sum = last_sum;
     let mut rest = if last_sum > 0.0 { 1.0 } else { 0.0 };
-    // How many orders there will be nobody knows: each is told as half of what is left.
-    let mut left = 1.0;
+    // How many orders there will be nobody knows: each is told as one of the most, so that every one is seen to go on.
+    let told = |order: u32| f64::from(order - 2) / f64::from(MOST_ORDERS - 1);
     for order in 2..=MOST_ORDERS {
         if sum <= 0.0 {
             break;
@@ -82,9 +82,8 @@ fn orders(
         rays.gather(
             &source,
             &mut next,
-            &watch.part(1.0 - left, 1.0 - 0.5 * left),
+            &watch.part(told(order), told(order + 1)),
         )?;
-        left *= 0.5;
         let next_sum = scattered(cells, colours, like, &next.light);
         let ratio = (next_sum / last_sum).clamp(0.0, MOST_RATIO);
         (last, last_sum) = (next.light, next_sum);

@@ -5,8 +5,6 @@
 //! are a apart, over all places between them, spread a peak by a variance of a²/6; twice over by a²/3. A spread of
 //! variance v is to first order 1 + v/2 ∇², and so undone by 1 − v/2 ∇².
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use rayon::prelude::*;
 
 use super::gathered::Gathered;
@@ -36,16 +34,12 @@ pub(super) fn sharpened(
         .for_each(|(record, _)| see_own(record, extinction, reach_m));
     let mut light = vec![[0.0; WIDE]; gathered.light.len()];
     let [x, y, z] = cells.size;
-    let done = AtomicUsize::new(0);
+    let pieces = watch.pieces(z);
     light
         .par_chunks_exact_mut((x * y * chunks).max(1))
         .enumerate()
         .try_for_each(|(layer, light)| {
-            if watch.is_cancelled() {
-                return None;
-            }
-            let before = done.fetch_add(1, Ordering::Relaxed);
-            watch.tell(before as f64 / z as f64);
+            pieces.begin()?;
             lanes::dispatch(Layer {
                 gathered,
                 cells,
