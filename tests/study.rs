@@ -21,6 +21,7 @@ use super::common;
 
 /// What qualities aim at, ΔE_ITP at the 95th percentile.
 const TARGETS: [f64; 4] = [5.0, 1.0, 0.3, 0.05];
+
 struct Looked {
     scene: Scene,
     settings: Settings,
@@ -156,6 +157,40 @@ fn the_reference_is_as_exact_as_it_is_said_to_be() {
         let found = difference(&finest, &reference).p95;
         println!("{file:36} the reference is said to be off by {said:.3} ΔE, found {found:.3} ΔE");
         assert!(found < 1.5 * said, "{file}: {said} {found}");
+    }
+}
+
+#[test]
+#[ignore = "measures: on cores that have nothing else to do"]
+fn a_look_takes_a_tenth_of_the_picture_or_a_second() {
+    let shared = common::shared().expect("SOOTLIGHT_SHARED names the shared folder");
+    for file in [
+        "plume/plume.vdb",
+        "pool/pool_0022_zip_half.vdb",
+        "embergen_cc0/embergen_fire_a_60.vdb",
+    ] {
+        let looked = Looked::at(&[shared.join("data").join(file)], &[], [1280, 720]);
+        let (scene, settings, never) = (&looked.scene, &looked.settings, Cancel::never());
+        let plan = Plan::new(scene, settings);
+        // The picture needs them as well.
+        let (_, fields) = timed_on_pool(|| plan.fields(scene, Level::Fine, &never).is_some());
+        for target_de in TARGETS {
+            let wished = Accuracy {
+                target_de,
+                ..Accuracy::ALL
+            };
+            let (pilot, took) = timed_on_pool(|| {
+                Pilot::new(scene, &plan, settings, wished, &never)
+                    .unwrap()
+                    .0
+            });
+            let numbers = pilot.choose(wished, Numbers::of(settings));
+            let [_, march_s] = pilot.seconds(numbers);
+            println!(
+                "{file:36} {target_de:5} ΔE: looked for {:.2} s, fields {:.2} s, march {march_s:.2} s",
+                took.wall_s, fields.wall_s
+            );
+        }
     }
 }
 
