@@ -61,10 +61,8 @@ mod tests {
     fn handed(patience: Duration) -> (usize, Film) {
         let tiles = Mutex::new(Vec::new());
         let sink = |tile| {
-            tiles
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .push(tile)
+            let mut tiles = tiles.lock().unwrap_or_else(PoisonError::into_inner);
+            tiles.push(tile);
         };
         let mut tile = Tile {
             stride: 1,
